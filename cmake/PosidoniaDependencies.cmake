@@ -1,0 +1,25 @@
+# Every outside package that Posidonia uses, in one place (Debian 12 versions).
+# MRPT's exported targets ask for optional packages (ZeroMQ, OpenNI ...) with REQUIRED OFF: harmless.
+find_package(Eigen3 3.4 REQUIRED)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d)
+foreach(component poses obs config math img io graphs graphslam bayes topography opengl tclap system)
+	find_package(mrpt-${component} 2.5 REQUIRED)
+endforeach()
+find_package(Threads REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+
+# SuiteSparse has no CMake package in Debian 12.
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+add_library(posidonia_cholmod INTERFACE)
+add_library(posidonia::cholmod ALIAS posidonia_cholmod)
+target_include_directories(posidonia_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
+target_link_libraries(posidonia_cholmod INTERFACE ${CHOLMOD_LIBRARY})
+
+if(POSIDONIA_BUILD_TESTS)
+	find_package(GTest REQUIRED)
+	find_package(Ceres 2.1 REQUIRED)  # test oracle only
+endif()
+if(POSIDONIA_BUILD_BENCHMARKS)
+	find_package(benchmark REQUIRED)
+endif()
