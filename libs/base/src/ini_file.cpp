@@ -47,12 +47,19 @@ CIniFile CIniFile::fromText(const std::string& text, const std::string& name)
 void CIniFile::set(const std::string& assignment)
 {
 	const auto equals = assignment.find('=');
-	const auto dot = assignment.find('.');
+	const auto dot = assignment.rfind('.', equals);  // sections may hold dots: Sensor.DVL.sigma_velocity=...
 	if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
 		throw CUsageError("--set " + assignment, "is not an assignment", "write --set Section.key=value");
 	m_config.write(
 		trimmed(assignment.substr(0, dot)), trimmed(assignment.substr(dot + 1, equals - dot - 1)),
 		trimmed(assignment.substr(equals + 1)));
+}
+
+std::vector<std::string> CIniFile::sections() const
+{
+	std::vector<std::string> names;
+	m_config.getAllSections(names);
+	return names;
 }
 
 void CIniFile::remember(const std::string& section, const std::vector<TOptionDoc>& rows)
@@ -64,9 +71,7 @@ void CIniFile::remember(const std::string& section, const std::vector<TOptionDoc
 
 void CIniFile::refuseUnknown() const
 {
-	std::vector<std::string> sections;
-	m_config.getAllSections(sections);
-	for (const auto& section : sections)
+	for (const auto& section : sections())
 	{
 		std::vector<std::string> keys;
 		m_config.getAllKeys(section, keys);

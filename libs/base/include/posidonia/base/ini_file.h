@@ -33,11 +33,21 @@ class CIniFile
 	OPTIONS load(const std::string& section)
 	{
 		OPTIONS options;
+		loadOnto(options, section);
+		return options;
+	}
+
+	/** As load(), over the present values of `options` instead of the defaults. */
+	template <class OPTIONS>
+	void loadOnto(OPTIONS& options, const std::string& section)
+	{
 		CReader reader(*this, section);
 		options.visit(reader);
 		remember(section, listOptions(options));
-		return options;
 	}
+
+	/** Names of the file's sections, in no particular order. */
+	std::vector<std::string> sections() const;
 
 	/** Throws for the first key or section that no load() asked for. Call it after all loads. */
 	void refuseUnknown() const;
