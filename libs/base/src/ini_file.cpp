@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace posidonia
 {
@@ -23,10 +24,47 @@ std::string trimmed(const std::string& s)
 double wholeNumber(const std::string& raw)
 {
 	double x = 0;
-	const char* first = raw.data() + (!raw.empty() && raw[0] == '+' ? 1 : 0);
+	const bool plus = raw.size() > 1 && raw[0] == '+' && raw[1] != '-';
+	const char* first = raw.data() + (plus ? 1 : 0);
 	const auto result = std::from_chars(first, raw.data() + raw.size(), x);
 	const bool whole = result.ec == std::errc() && result.ptr == raw.data() + raw.size();
 	return whole ? x : std::nan("");
+}
+
+/** Throws for what MRPT's parser passes over in silence: lines that are no assignment, and a key given twice.
+ */
+void checkLines(const std::string& text, const std::string& name)
+{
+	std::istringstream lines(text);
+	std::set<std::string> seen;
+	std::string section, line;
+	bool continued = false;
+	for (int number = 1; std::getline(lines, line); number++) {
+		line = trimmed(line);
+		const bool continues = !line.empty() && line.back() == '\\';
+		const bool skip = std::exchange(continued, continues) || line.empty() || line[0] == '#' ||
+						  line[0] == ';' || line[0] == '@' || line.compare(0, 2, "//") == 0;
+		if (skip) continue;
+		const auto equals = line.find('=');
+		const std::string where = name + ":" + std::to_string(number);
+		if (line[0] == '[')
+			section = line.substr(0, line.find(']'));
+		else if (equals == std::string::npos)
+			throw CError(
+				where, "'" + line + "' is no assignment", "write key = value, or // before a comment");
+		else if (!seen.insert(section + "]" + trimmed(line.substr(0, equals))).second)
+			throw CError(
+				where, section + "] " + trimmed(line.substr(0, equals)) + " is given twice", "remove one");
+	}
+}
+
+/** The sentence of an MRPT exception, without its stack trace. */
+std::string messageOf(const std::exception& problem)
+{
+	std::string text = problem.what();
+	const auto from = text.find("Message:");
+	if (from != std::string::npos) text = text.substr(from + 8);
+	return trimmed(text.substr(0, text.find('\n', 1)));
 }
 }  // namespace
 
@@ -40,14 +78,20 @@ CIniFile CIniFile::fromText(const std::string& text, const std::string& name)
 {
 	CIniFile file;
 	file.m_name = name;
-	file.m_config.setContent(text);
+	checkLines(text, name);
+	try {
+		file.m_config.setContent(text);	 // expands @define, ${} and $eval{}
+	}
+	catch (const std::exception& problem) {
+		throw CError(name, messageOf(problem), "check its @define, ${...} and $eval{...}");
+	}
 	return file;
 }
 
 void CIniFile::set(const std::string& assignment)
 {
 	const auto equals = assignment.find('=');
-	const auto dot = assignment.rfind('.', equals);  // sections may hold dots: Sensor.DVL.sigma_velocity=...
+	const auto dot = assignment.rfind('.', equals);	 // sections may hold dots: Sensor.DVL.sigma_velocity=...
 	if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
 		throw CUsageError("--set " + assignment, "is not an assignment", "write --set Section.key=value");
 	m_config.write(
@@ -66,20 +110,28 @@ void CIniFile::remember(const std::string& section, const std::vector<TOptionDoc
 {
 	if (!m_known.count(section)) m_section_order.push_back(section);
 	auto& known = m_known[section];
-	known.insert(known.end(), rows.begin(), rows.end());
+	for (const auto& row : rows)  // loaded again: the last value counts
+	{
+		const auto same = [&](const TOptionDoc& other) { return other.key == row.key; };
+		const auto found = std::find_if(known.begin(), known.end(), same);
+		if (found == known.end())
+			known.push_back(row);
+		else
+			*found = row;
+	}
 }
 
 void CIniFile::refuseUnknown() const
 {
-	for (const auto& section : sections())
-	{
+	for (const auto& section : sections()) {
 		std::vector<std::string> keys;
 		m_config.getAllKeys(section, keys);
 		const auto known = m_known.find(section);
 		if (known == m_known.end())
 			throw CError(m_name, "unknown section [" + section + "]", didYouMean(section, m_section_order));
 		std::vector<std::string> names;
-		for (const auto& row : known->second) names.push_back(row.key);
+		for (const auto& row : known->second)
+			names.push_back(row.key);
 		for (const auto& key : keys)
 			if (std::find(names.begin(), names.end(), key) == names.end())
 				throw CError(m_name, "[" + section + "] unknown key '" + key + "'", didYouMean(key, names));
@@ -89,8 +141,7 @@ void CIniFile::refuseUnknown() const
 std::string CIniFile::dump() const
 {
 	std::ostringstream out;
-	for (const auto& section : m_section_order)
-	{
+	for (const auto& section : m_section_order) {
 		out << "[" << section << "]\n";
 		for (const auto& row : m_known.at(section))
 			out << "// " << row.text << " (" << row.range << ")\n" << row.key << " = " << row.value << "\n";
@@ -179,7 +230,8 @@ void CIniFile::CReader::numbers(
 	if (!find(key, raw)) return;
 	std::istringstream words(raw);
 	std::vector<double> read;
-	for (std::string word; words >> word;) read.push_back(parse(key, word, range));
+	for (std::string word; words >> word;)
+		read.push_back(parse(key, word, range));
 	if (n && read.size() != n) fail(key, raw, "must be " + std::to_string(n) + " numbers");
 	values = read;
 }

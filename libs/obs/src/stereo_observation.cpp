@@ -45,6 +45,13 @@ TStereoSpec stereoSpecOf(const CObservationStereoImages& pair)
 		throw CError(
 			"sensor '" + pair.sensorLabel + "'", "the stereo pair is not rectified or has no right image",
 			"rectify the images first (auv-dataset2rawlog does)");
+	const auto &l = pair.leftCamera, &r = pair.rightCamera;
+	const bool same = l.fx() == r.fx() && l.fy() == r.fy() && l.cx() == r.cx() && l.cy() == r.cy();
+	if (!same || pair.rightCameraPose.x() <= 0)
+		throw CError(
+			"sensor '" + pair.sensorLabel + "'",
+			"the stereo pair's cameras differ or its baseline is not > 0",
+			"rectify the images first, with the same intrinsics left and right");
 	TStereoSpec spec;
 	spec.camera.width = static_cast<int>(pair.leftCamera.ncols);
 	spec.camera.height = static_cast<int>(pair.leftCamera.nrows);
@@ -73,10 +80,10 @@ TGreyPair CStereoImageLoader::load(const CObservationStereoImages& pair) const
 	return {loadOne(pair.imageLeft, "left", stamp), loadOne(pair.imageRight, "right", stamp)};
 }
 
-cv::Mat CStereoImageLoader::loadOne(const mrpt::img::CImage& image, const std::string& side, double stamp) const
+cv::Mat CStereoImageLoader::loadOne(
+	const mrpt::img::CImage& image, const std::string& side, double stamp) const
 {
-	if (!image.isExternallyStored())
-	{
+	if (!image.isExternallyStored()) {
 		const cv::Mat& embedded = image.asCvMatRef();
 		if (embedded.empty() || embedded.channels() == 1) return embedded;
 		cv::Mat grey;
@@ -89,7 +96,8 @@ cv::Mat CStereoImageLoader::loadOne(const mrpt::img::CImage& image, const std::s
 	if (grey.empty())
 		throw CError(
 			m_rawlog,
-			mrpt::format("stereo pair at %.6f s: %s image %s not found or not readable under %s/", stamp, side.c_str(),
+			mrpt::format(
+				"stereo pair at %.6f s: %s image %s not found or not readable under %s/", stamp, side.c_str(),
 				name.c_str(), m_folder.c_str()),
 			"put the images folder beside the rawlog");
 	return grey;

@@ -7,7 +7,8 @@
 
 namespace posidonia
 {
-/** Writes a rawlog of single observations (format 2), whole or not at all: "<path>.part" becomes `path` in finish(). */
+/** Writes a rawlog of single observations (format 2), whole or not at all: "<path>.part" becomes `path` in
+ * finish(). */
 class CRawlogWriter
 {
    public:
@@ -26,5 +27,6 @@ class CRawlogWriter
 	std::string m_path;
 	mrpt::io::CFileGZOutputStream m_stream;
 	size_t m_count{0};
+	bool m_finished{false};
 };
 }  // namespace posidonia
