@@ -58,6 +58,16 @@ void checkLines(const std::string& text, const std::string& name)
 	}
 }
 
+/** MRPT takes a comment line "// a = b" for the key "// a": such lines are blanked. */
+std::string withoutSlashComments(const std::string& text)
+{
+	std::istringstream lines(text);
+	std::string out;
+	for (std::string line; std::getline(lines, line);)
+		out += (trimmed(line).compare(0, 2, "//") == 0 ? "" : line) + "\n";
+	return out;
+}
+
 /** The sentence of an MRPT exception, without its stack trace. */
 std::string messageOf(const std::exception& problem)
 {
@@ -80,7 +90,7 @@ CIniFile CIniFile::fromText(const std::string& text, const std::string& name)
 	file.m_name = name;
 	checkLines(text, name);
 	try {
-		file.m_config.setContent(text);	 // expands @define, ${} and $eval{}
+		file.m_config.setContent(withoutSlashComments(text));  // expands @define, ${} and $eval{}
 	}
 	catch (const std::exception& problem) {
 		throw CError(name, messageOf(problem), "check its @define, ${...} and $eval{...}");
