@@ -1,0 +1,126 @@
+#include <posidonia/vision/features.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
+
+namespace posidonia
+{
+namespace
+{
+/** Detectors give up to this many times the wanted number, for the grid to choose from. */
+constexpr int GRID_CHOICE = 3;
+
+cv::Ptr<cv::Feature2D> makeDetector(const TFeatureOptions& o)
+{
+	if (o.detector == "SIFT") return cv::SIFT::create(GRID_CHOICE * o.max_features, 3, o.sift_contrast);
+	if (o.detector == "AKAZE")
+		return cv::AKAZE::create(
+			cv::AKAZE::DESCRIPTOR_MLDB, 0, 3, static_cast<float>(o.akaze_threshold), 4, 4,
+			cv::KAZE::DIFF_PM_G2);
+	return cv::ORB::create(
+		GRID_CHOICE * o.max_features, 1.2f, 8, 15, 0, 2, cv::ORB::HARRIS_SCORE, 31, o.orb_fast_threshold);
+}
+
+/** Size [px] of the detector's finest key points. */
+double smallestSize(const std::string& detector)
+{
+	if (detector == "SIFT") return 2.0;
+	return detector == "ORB" ? 31.0 : 4.8;
+}
+
+/** Moves a key point to where the detector saw it; pixel centres are at whole numbers.
+ * OpenCV's SIFT doubles the image (sample X lies at X/2 - 1/4) but reports X/2, and its ORB shrinks by s
+ * (sample X lies at (X + 1/2) s - 1/2) but reports X s. Left alone, that is 0.35 px between opposite
+ * headings, all to one side. */
+void correctPosition(cv::KeyPoint& k, const std::string& detector)
+{
+	float shift = 0;
+	if (detector == "SIFT") shift = -0.25f;
+	if (detector == "ORB") shift = 0.5f * (k.size / 31.0f - 1);
+	k.pt += cv::Point2f(shift, shift);
+}
+
+/** Strongest first; a total order, so that no sort depends on the order of detection. */
+bool strongerThan(const cv::KeyPoint& a, const cv::KeyPoint& b)
+{
+	return std::tie(b.response, a.pt.y, a.pt.x, a.size, a.angle, a.octave) <
+		   std::tie(a.response, b.pt.y, b.pt.x, b.size, b.angle, b.octave);
+}
+
+bool beforeInImage(const cv::KeyPoint& a, const cv::KeyPoint& b)
+{
+	return std::tie(a.pt.y, a.pt.x, b.response, a.size, a.angle, a.octave) <
+		   std::tie(b.pt.y, b.pt.x, a.response, b.size, b.angle, b.octave);
+}
+
+cv::Mat equalised(const cv::Mat& image, const TFeatureOptions& o)
+{
+	if (!o.clahe) return image;
+	cv::Mat out;
+	cv::createCLAHE(o.clahe_clip, cv::Size(8, 8))->apply(image, out);
+	return out;
+}
+}  // namespace
+
+bool isBinaryDetector(const std::string& detector)
+{
+	return detector != "SIFT";
+}
+
+std::vector<int> spreadOverGrid(
+	const std::vector<cv::KeyPoint>& key_points, cv::Size image, int columns, int rows, int n)
+{
+	std::vector<int> order(key_points.size());
+	std::iota(order.begin(), order.end(), 0);
+	std::sort(
+		order.begin(), order.end(), [&](int i, int j) { return strongerThan(key_points[i], key_points[j]); });
+
+	std::vector<int> taken(columns * rows, 0), chosen, rest;
+	const int share = n / (columns * rows);
+	const auto cell = [](double x, int cells, int size) {
+		return std::clamp(static_cast<int>(x * cells / size), 0, cells - 1);
+	};
+	for (const int i : order) {
+		const cv::Point2f p = key_points[i].pt;
+		const int column = cell(p.x, columns, image.width);
+		const int row = cell(p.y, rows, image.height);
+		const bool within_share = taken[row * columns + column]++ < share;
+		(within_share ? chosen : rest).push_back(i);
+	}
+	const size_t missing = std::min(rest.size(), n - chosen.size());
+	chosen.insert(chosen.end(), rest.begin(), rest.begin() + missing);
+	std::sort(chosen.begin(), chosen.end(), [&](int i, int j) {
+		return beforeInImage(key_points[i], key_points[j]);
+	});
+	return chosen;
+}
+
+TFeatures detectFeatures(const cv::Mat& image, const TFeatureOptions& options)
+{
+	// Detection and description in one call: SIFT's and ORB's pyramids are built once, and no descriptor
+	// ever meets another detector's key points.
+	std::vector<cv::KeyPoint> all;
+	cv::Mat descriptors;
+	makeDetector(options)->detectAndCompute(equalised(image, options), {}, all, descriptors);
+
+	TFeatures features;
+	const auto chosen =
+		spreadOverGrid(all, image.size(), options.grid_columns, options.grid_rows, options.max_features);
+	if (chosen.empty()) return features;
+	features.descriptors.create(static_cast<int>(chosen.size()), descriptors.cols, CV_8U);
+	for (size_t row = 0; row < chosen.size(); row++) {
+		cv::KeyPoint k = all[chosen[row]];
+		correctPosition(k, options.detector);
+		features.key_points.push_back(k);
+		features.octaves.push_back(std::max(0.0, std::log2(k.size / smallestSize(options.detector))));
+		// SIFT's floats are whole numbers 0..255: nothing is lost.
+		cv::Mat target = features.descriptors.row(static_cast<int>(row));
+		descriptors.row(chosen[row]).convertTo(target, CV_8U);
+	}
+	return features;
+}
+}  // namespace posidonia

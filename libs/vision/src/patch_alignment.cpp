@@ -1,0 +1,122 @@
+#include <posidonia/vision/patch_alignment.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace posidonia
+{
+namespace
+{
+/** Smoothing before interpolation [px]: without it the interpolation's error pulls disparities to whole
+ * pixels. */
+constexpr double SMOOTHING = 0.8;
+constexpr int MAX_ITERATIONS = 12;
+constexpr double CONVERGED = 1e-3;	// [px]
+
+/** White noise smoothed by a Gaussian is correlated over 4 pi s^2 pixels: a sum over n of them holds n over
+ * this many independent ones. An upper bound for the alignment, whose weights vary over the patch. */
+constexpr double CORRELATED_PIXELS = 4 * M_PI * SMOOTHING * SMOOTHING;
+
+cv::Mat smoothed(const cv::Mat& image)
+{
+	cv::Mat f;
+	image.convertTo(f, CV_32F);
+	cv::GaussianBlur(f, f, cv::Size(7, 7), SMOOTHING);
+	return f;
+}
+
+/** Catmull-Rom weights of the samples at -1, 0, 1, 2 for the place t in [0, 1), and their derivatives by t.
+ */
+struct TCubic
+{
+	float w[4], dw[4];
+	explicit TCubic(double t)
+	{
+		const double t2 = t * t, t3 = t2 * t;
+		const double a[4] = {
+			-0.5 * t + t2 - 0.5 * t3, 1 - 2.5 * t2 + 1.5 * t3, 0.5 * t + 2 * t2 - 1.5 * t3,
+			-0.5 * t2 + 0.5 * t3};
+		const double b[4] = {
+			-0.5 + 2 * t - 1.5 * t2, -5 * t + 4.5 * t2, 0.5 + 4 * t - 4.5 * t2, -t + 1.5 * t2};
+		for (int i = 0; i < 4; i++)
+			w[i] = static_cast<float>(a[i]), dw[i] = static_cast<float>(b[i]);
+	}
+};
+}  // namespace
+
+/** Centred second moments of left L, right R and the right's slope G. */
+struct CPatchAligner::TNormalEquations
+{
+	double n{0}, l{0}, r{0}, g{0}, ll{0}, rr{0}, gg{0}, lr{0}, lg{0}, rg{0};
+
+	void addRow(const float* left, const float* right, int count, const TCubic& c)
+	{
+		float s[9] = {};
+		for (int i = 0; i < count; i++) {
+			const float* p = right + i;
+			const float L = left[i];
+			const float R = c.w[0] * p[-1] + c.w[1] * p[0] + c.w[2] * p[1] + c.w[3] * p[2];
+			const float G = c.dw[0] * p[-1] + c.dw[1] * p[0] + c.dw[2] * p[1] + c.dw[3] * p[2];
+			s[0] += L, s[1] += R, s[2] += G;
+			s[3] += L * L, s[4] += R * R, s[5] += G * G;
+			s[6] += L * R, s[7] += L * G, s[8] += R * G;
+		}
+		n += count, l += s[0], r += s[1], g += s[2];
+		ll += s[3], rr += s[4], gg += s[5], lr += s[6], lg += s[7], rg += s[8];
+	}
+	void centre()
+	{
+		ll -= l * l / n, rr -= r * r / n, gg -= g * g / n;
+		lr -= l * r / n, lg -= l * g / n, rg -= r * g / n;
+	}
+};
+
+CPatchAligner::CPatchAligner(const cv::Mat& left, const cv::Mat& right)
+	: m_left(smoothed(left)), m_right(smoothed(right))
+{
+}
+
+bool CPatchAligner::linearise(int x, int y, double disparity, int radius, TNormalEquations& n) const
+{
+	const double u = x - disparity;
+	const int whole = static_cast<int>(std::floor(u));
+	const bool inside = x >= radius && x + radius < m_left.cols && y >= radius && y + radius < m_left.rows &&
+						whole >= radius + 1 && whole + radius + 2 < m_right.cols;
+	if (!inside) return false;
+	const TCubic cubic(u - whole);
+	for (int j = y - radius; j <= y + radius; j++)
+		n.addRow(
+			m_left.ptr<float>(j) + x - radius, m_right.ptr<float>(j) + whole - radius, 2 * radius + 1, cubic);
+	n.centre();
+	return true;
+}
+
+std::optional<TPatchAlignment> CPatchAligner::align(
+	double u, double v, double start, int radius, double reach) const
+{
+	// The left patch sits on whole pixels, so only the right one is interpolated; the disparity of a smooth
+	// floor is the same half a pixel aside.
+	const int x = static_cast<int>(std::lround(u)), y = static_cast<int>(std::lround(v));
+	double d = start;
+	for (int i = 0; i < MAX_ITERATIONS; i++) {
+		TNormalEquations e;
+		if (!linearise(x, y, d, radius, e)) return {};
+		// L - mean = gain (R - mean) + slope_gain (G - mean), the disparity grows by -slope_gain / gain.
+		const double det = e.rr * e.gg - e.rg * e.rg;
+		if (!(det > 1e-9 * e.rr * e.gg) || !(e.ll > 0)) return {};
+		const double gain = (e.lr * e.gg - e.lg * e.rg) / det;
+		const double slope_gain = (e.lg * e.rr - e.lr * e.rg) / det;
+		if (!(gain > 0)) return {};
+		const double step = std::clamp(-slope_gain / gain, -1.0, 1.0);
+		d += step;
+		if (std::abs(d - start) > reach) return {};
+		if (std::abs(step) > CONVERGED) continue;
+		const double residual = std::max(0.0, e.ll - gain * e.lr - slope_gain * e.lg);
+		const double gradient = gain * gain * (e.gg - e.rg * e.rg / e.rr);
+		const double sigma = std::sqrt(residual / (e.n - 3) * CORRELATED_PIXELS / gradient);
+		return TPatchAlignment{d, sigma, e.lr / std::sqrt(e.ll * e.rr)};
+	}
+	return {};
+}
+}  // namespace posidonia
