@@ -1,0 +1,166 @@
+#include <posidonia/sim/random.h>
+#include <posidonia/sim/renderer.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+namespace posidonia
+{
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace
+{
+constexpr float kRangeStep = 0.005f;  ///< [m]
+constexpr int kRanges = 8192;  ///< Up to 41 m
+constexpr int kNoiseBits = 12;
+
+/** x with P(normal <= x) = p, by Newton's method on erfc. */
+double normalQuantile(double p)
+{
+	double x = 0;
+	for (int i = 0; i < 60; i++)
+	{
+		const double error = 0.5 * std::erfc(-x / std::sqrt(2.0)) - p;
+		const double density = std::exp(-x * x / 2) / std::sqrt(2 * M_PI);
+		x -= std::clamp(error / density, -0.5, 0.5);
+	}
+	return x;
+}
+
+/** Bilinear value of a level at (column, row); outside its border pixels go on. */
+inline float sampled(const uint8_t* pixels, size_t stride, int last_col, int last_row, double col, double row)
+{
+	const double c = std::clamp(col, 0.0, last_col - 1e-3), r = std::clamp(row, 0.0, last_row - 1e-3);
+	const int i = static_cast<int>(c), j = static_cast<int>(r);
+	const float fx = static_cast<float>(c - i), fy = static_cast<float>(r - j);
+	const uint8_t* p = pixels + static_cast<size_t>(j) * stride + static_cast<size_t>(i);
+	const float top = static_cast<float>(p[0]) + fx * static_cast<float>(p[1] - p[0]);
+	const float bottom = static_cast<float>(p[stride]) + fx * static_cast<float>(p[stride + 1] - p[stride]);
+	return top + fy * (bottom - top);
+}
+}  // namespace
+
+/** One row of the picture: its viewing rays in map, origin + column * step, and where the camera is. */
+struct CFloorRenderer::TRays
+{
+	Vector3d origin, step;
+	double height;	///< Of the camera over the floor [m]
+	Eigen::Vector2d foot;  ///< Texture pixel (level 0) straight below the camera
+	const float* length;  ///< Of each ray with unit depth
+};
+
+/** Two neighbouring mip levels and the share of the coarser one. */
+struct CFloorRenderer::TLevels
+{
+	size_t fine, coarse;
+	float share;
+};
+
+CFloorRenderer::CFloorRenderer(
+	const CFloorTexture& floor, double depth, const TStereoCamera& camera, const TWaterOptions& water,
+	const TCameraOptions& sensor)
+	: m_floor(floor), m_depth(depth), m_camera(camera)
+{
+	buildTables(water, sensor);
+}
+
+void CFloorRenderer::buildTables(const TWaterOptions& water, const TCameraOptions& sensor)
+{
+	for (int i = 0; i < kRanges; i++)
+	{
+		const double range = i * static_cast<double>(kRangeStep);
+		m_direct.push_back(static_cast<float>(std::exp(-water.attenuation * range)));
+		m_veil.push_back(static_cast<float>(water.veiling_light * (1 - std::exp(-water.backscatter * range))));
+	}
+	const int n = 1 << kNoiseBits;
+	for (int i = 0; i < n; i++) m_noise.push_back(static_cast<float>(sensor.noise * normalQuantile((i + 0.5) / n)));
+	const double corner = std::hypot(m_camera.width, m_camera.height) / 2;
+	for (int v = 0; v < m_camera.height; v++)
+		for (int u = 0; u < m_camera.width; u++)
+		{
+			const double off = std::hypot(u - (m_camera.width - 1) / 2.0, v - (m_camera.height - 1) / 2.0) / corner;
+			m_vignetting.push_back(static_cast<float>(1 - sensor.vignetting * off * off));
+			m_ray_length.push_back(static_cast<float>(
+				Vector3d((u - m_camera.cx) / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1).norm()));
+		}
+}
+
+CFloorRenderer::TLevels CFloorRenderer::chooseLevels(double height) const
+{
+	// Level whose pixels are as wide as a picture pixel's footprint; between two levels, a blend.
+	const double footprint = height / m_camera.fx, last = static_cast<double>(m_floor.levels().size() - 1);
+	const double level = std::clamp(std::log2(footprint / m_floor.resolution()), 0.0, last);
+	const size_t fine = static_cast<size_t>(level);
+	return {fine, std::min(fine + 1, m_floor.levels().size() - 1), static_cast<float>(level - static_cast<double>(fine))};
+}
+
+cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_seed) const
+{
+	const Matrix3d& R = T_map_camera.linear();
+	const Vector3d centre = T_map_camera.translation();
+	TRays rays{{}, R.col(0) / m_camera.fx, m_depth - centre.z(), m_floor.pixelAt(centre.head<2>()), nullptr};
+	const TLevels levels = chooseLevels(std::max(rays.height, 1e-3));
+	const size_t width = static_cast<size_t>(m_camera.width);
+	std::vector<float> radiance(width), range(width);
+	cv::Mat picture(m_camera.height, m_camera.width, CV_8U);
+	for (int v = 0; v < m_camera.height; v++)
+	{
+		rays.origin = R * Vector3d(-m_camera.cx / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1);
+		rays.length = m_ray_length.data() + static_cast<size_t>(v) * width;
+		sampleRow(rays, levels, radiance.data(), range.data());
+		develop(v, radiance.data(), range.data(), mixed(noise_seed, static_cast<uint64_t>(v)), picture.ptr<uint8_t>(v));
+	}
+	return picture;
+}
+
+void CFloorRenderer::sampleRow(const TRays& rays, const TLevels& levels, float* radiance, float* range) const
+{
+	const cv::Mat &fine = m_floor.levels()[levels.fine], &coarse = m_floor.levels()[levels.coarse];
+	const double to_fine = std::ldexp(1.0, -static_cast<int>(levels.fine));
+	const double to_coarse = std::ldexp(1.0, -static_cast<int>(levels.coarse));
+	const double pixels = rays.height / m_floor.resolution();
+	for (int u = 0; u < m_camera.width; u++)
+	{
+		const Vector3d ray = rays.origin + u * rays.step;
+		if (ray.z() < 1e-3 || rays.height <= 0)	 // over the horizon, or under the floor: water only
+		{
+			radiance[u] = 0, range[u] = kRangeStep * kRanges;
+			continue;
+		}
+		const double per_depth = 1 / ray.z();
+		range[u] = static_cast<float>(rays.height * per_depth) * rays.length[u];
+		// + 0.5: pixel areas, not centres, nest from level to level
+		const double col = rays.foot.x() + ray.y() * per_depth * pixels + 0.5;
+		const double row = rays.foot.y() - ray.x() * per_depth * pixels + 0.5;
+		const float a = sampled(
+			fine.data, fine.step, fine.cols - 1, fine.rows - 1, col * to_fine - 0.5, row * to_fine - 0.5);
+		const float b = sampled(
+			coarse.data, coarse.step, coarse.cols - 1, coarse.rows - 1, col * to_coarse - 0.5, row * to_coarse - 0.5);
+		radiance[u] = a + levels.share * (b - a);
+	}
+}
+
+void CFloorRenderer::develop(int row, const float* radiance, const float* range, uint64_t noise_seed, uint8_t* out) const
+{
+	const float* vignetting = m_vignetting.data() + static_cast<size_t>(row) * static_cast<size_t>(m_camera.width);
+	constexpr uint64_t mask = (1 << kNoiseBits) - 1;
+	uint64_t bits = 0;
+	for (int u = 0; u < m_camera.width; u++)
+	{
+		bits = u % 4 == 0 ? mixed(noise_seed + static_cast<uint64_t>(u)) : bits >> 16;
+		const size_t i = static_cast<size_t>(std::min(range[u] / kRangeStep + 0.5f, kRanges - 1.0f));
+		const float light = (radiance[u] * m_direct[i] + m_veil[i]) * vignetting[u] + m_noise[bits & mask];
+		out[u] = static_cast<uint8_t>(std::clamp(light + 0.5f, 0.0f, 255.0f));
+	}
+}
+
+TGreyPair renderPair(
+	const CFloorRenderer& renderer, const Isometry3d& T_map_camera, double baseline, uint64_t seed, uint64_t frame)
+{
+	const Isometry3d T_map_right = T_map_camera * Eigen::Translation3d(baseline, 0, 0);
+	return {
+		renderer.render(T_map_camera, mixed(seed, frame, 0)), renderer.render(T_map_right, mixed(seed, frame, 1))};
+}
+}  // namespace posidonia

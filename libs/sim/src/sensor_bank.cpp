@@ -1,0 +1,90 @@
+#include <posidonia/base/error.h>
+#include <posidonia/sim/sensor_bank.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace posidonia
+{
+using mrpt::obs::CObservation;
+
+namespace
+{
+std::string pictureName(const std::string& label, uint64_t frame, const char* side)
+{
+	char number[32];
+	std::snprintf(number, sizeof number, "_%06llu_", static_cast<unsigned long long>(frame));
+	return label + number + side + ".png";
+}
+
+/** The rig's clock: what it says about each pair without the pixels. */
+class CPairAnnouncer
+{
+   public:
+	CPairAnnouncer(const std::string& label, const TStereoSpec& spec) : m_label(label), m_spec(spec) {}
+	CObservation::Ptr measure(const TVehicleState&, double stamp)
+	{
+		const uint64_t frame = m_frame++;
+		return makeStereo(
+			m_label, stamp, m_spec, pictureName(m_label, frame, "left"), pictureName(m_label, frame, "right"));
+	}
+
+   private:
+	std::string m_label;
+	TStereoSpec m_spec;
+	uint64_t m_frame{0};
+};
+}  // namespace
+
+CSensorBank::CSensorBank(const TSimulationOptions& o, const TSensorSuite& nominal) : m_start_time(o.run.start_time)
+{
+	const uint64_t seed = o.run.seed;
+	const auto errors = drawnSigns(o.calibration_error, seed);
+	add(o.run.imu, nominal.imu, [&](auto& l, auto& s) { return std::make_shared<CSimulatedImu>(l, s, o.imu, seed); });
+	add(o.run.ahrs, nominal.ahrs, [&](auto& l, auto& s) { return std::make_shared<CSimulatedAhrs>(l, s, o.ahrs, seed); });
+	add(o.run.dvl, nominal.dvl, [&](auto& l, auto& s) {
+		return std::make_shared<CSimulatedDvl>(l, s, o.dvl, errors, o.floor.depth, seed);
+	});
+	add(o.run.pressure, nominal.pressure,
+		[&](auto& l, auto& s) { return std::make_shared<CSimulatedPressure>(l, s, seed); });
+	add(o.run.gps, nominal.gps,
+		[&](auto& l, auto& s) { return std::make_shared<CSimulatedGps>(l, s, o.gps, o.world, seed); });
+	add(o.run.stereo, nominal.stereo, [&](auto& l, auto& s) { return std::make_shared<CPairAnnouncer>(l, s); });
+	if (m_clocks.empty())
+		throw CError("[Simulation]", "every sensor is switched off", "switch on at least one, e.g. imu = true");
+}
+
+template <class SPECS, class MAKE>
+void CSensorBank::add(bool enabled, const SPECS& specs, MAKE&& make)
+{
+	if (!enabled) return;
+	for (const auto& [label, spec] : specs)
+		m_clocks.push_back(
+			{spec.rate, 0, [sensor = make(label, spec)](const TVehicleState& state, double stamp) {
+				 return sensor->measure(state, stamp);
+			 }});
+}
+
+double CSensorBank::stampOfTick(const TClock& clock) const
+{
+	// Through the stamp's 100 ns ticks, so that the truth belongs to the stamp as it is written.
+	return mrpt::Clock::toDouble(stampFrom(m_start_time + static_cast<double>(clock.tick) / clock.rate));
+}
+
+const CSensorBank::TClock& CSensorBank::due() const
+{
+	return *std::min_element(m_clocks.begin(), m_clocks.end(), [this](const TClock& a, const TClock& b) {
+		return stampOfTick(a) < stampOfTick(b);	 // the first of equals
+	});
+}
+
+double CSensorBank::nextTime() const { return stampOfTick(due()) - m_start_time; }
+
+CObservation::Ptr CSensorBank::measure(const TVehicleState& state)
+{
+	TClock& clock = const_cast<TClock&>(due());
+	const double stamp = stampOfTick(clock);
+	clock.tick++;
+	return clock.measure(state, stamp);
+}
+}  // namespace posidonia
