@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace posidonia
+{
+/** A row of the paper's Tables 2 and 3. */
+struct TPaperRow
+{
+	std::string input;	   ///< "Odometry", "SLAM" ...
+	double length{0};	   ///< Traj. Dist. [m]
+	double mean_error{0};  ///< Trans. ME: mean 3D error, unaligned [m]; NaN shows as "-" (the truth has none)
+};
+
+/** The paper's Table 2 (experiment 1) or 3 (experiment 2) with our rows under it, for a terminal.
+ * Throws CError for another experiment. */
+std::string paperTable(int experiment, const std::vector<TPaperRow>& ours);
+}  // namespace posidonia
