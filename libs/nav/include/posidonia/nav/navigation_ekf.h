@@ -1,0 +1,78 @@
+#pragma once
+
+#include <mrpt/bayes/CKalmanFilterCapable.h>
+#include <posidonia/nav/measurements.h>
+#include <posidonia/nav/odometry_source.h>
+
+namespace mrpt::bayes
+{
+/** The stock iteration compiles for up to 7 states only; this one serves 18 (see README), without any
+ * allocation. */
+template <>
+void CKalmanFilterCapable<
+	posidonia::kNavigationSize, posidonia::CMeasurement::kSize, 0, 4>::runOneKalmanIteration();
+}  // namespace mrpt::bayes
+
+namespace posidonia
+{
+/** Error-state Kalman filter of a vehicle's position, attitude, body velocity and gyro bias, with a clone of
+ * a past pose. m_xkk holds the error, zero between iterations, m_pkk its covariance; the nominal state with
+ * its rotation matrix stands beside them, so no attitude is singular. */
+class CNavigationEKF : public mrpt::bayes::CKalmanFilterCapable<kNavigationSize, CMeasurement::kSize, 0, 4>
+{
+   public:
+	/** `gate_probability`: part of the good measurements that the chi-square gate lets pass, in (0, 1). */
+	CNavigationEKF(const TMotionNoise& noise, double gate_probability);
+
+	/** Starts at `x` with the covariance of its moving rows; the clone is put at the same pose. */
+	void initialize(const TNavigationState& x, const MatrixMoving& cov);
+	/** Moves the present by u.dt > 0 [s]. */
+	void predict(const TMotionInput& u);
+	/** Fuses a measurement of the present; false: the gate refused it and nothing changed. */
+	bool update(const CMeasurement& measurement);
+	/** As update(), without the gate. */
+	void updateUngated(const CMeasurement& measurement);
+	/** Copies the present pose and its correlations into the clone. */
+	void clone();
+	/** Starts an edge: horizontal position zero and exact, attitude and gyro bias those of `reference` with
+	 * their covariance; depth, velocity and their covariance stay; then clone(). See README, "Edges". */
+	void anchor(const CNavigationEKF& reference);
+
+	const TNavigationState& state() const { return m_nominal; }
+	MatrixNav covariance() const;
+	/** T_odom_body and T_clone_body with covariance (path_length is not kept here). */
+	TPoseEstimate pose() const;
+	TPoseEstimate sinceClone() const;
+	/** Squared Mahalanobis distance of the last measurement's innovation. */
+	double lastDistance() const { return m_last_distance; }
+
+   protected:
+	void OnGetAction(KFArray_ACT& u) const override;
+	void OnTransitionModel(const KFArray_ACT& u, KFArray_VEH& x, bool& skip) const override;
+	void OnTransitionJacobian(KFMatrix_VxV& F) const override;
+	void OnTransitionNoise(KFMatrix_VxV& Q) const override;
+	void OnGetObservationNoise(KFMatrix_OxO& R) const override;
+	void OnGetObservationsAndDataAssociation(
+		vector_KFArray_OBS& z, std::vector<int>& association, const vector_KFArray_OBS& predictions,
+		const KFMatrix& S, const std::vector<size_t>& indices, const KFMatrix_OxO& R) override;
+	void OnObservationModel(
+		const std::vector<size_t>& indices, vector_KFArray_OBS& predictions) const override;
+	void OnObservationJacobians(size_t index, KFMatrix_OxV& Hx, KFMatrix_OxF& Hy) const override;
+	void OnNormalizeStateVector() override;
+
+   private:
+	friend class CNavigationEkfProbe;  // the tests' eye on the virtuals
+	using MapNav = Eigen::Map<Eigen::Matrix<double, kNavigationSize, kNavigationSize, Eigen::RowMajor>>;
+	MapNav P() { return MapNav(m_pkk.data()); }
+	void fuse(const CMeasurement& measurement, bool gated);
+	void resetCovariance(const Eigen::Vector3d& attitude_error, int rows);
+
+	TMotionNoise m_noise;
+	double m_gate[CMeasurement::kSize + 1];	 ///< Chi-square quantile by degrees of freedom
+	TNavigationState m_nominal, m_nominal_next;
+	TMotionInput m_input;
+	const CMeasurement* m_measurement{nullptr};	 ///< During an update only
+	bool m_gated{true}, m_accepted{false};
+	double m_last_distance{0};
+};
+}  // namespace posidonia
