@@ -3,33 +3,52 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace posidonia::testing
 {
-/** Empty when every tag is closed in order and attributes are quoted; else what is wrong. */
+/** Are name="value" pairs, each after a blank, all there is in a tag after its name? */
+inline bool attributesAreQuoted(std::string text)
+{
+	while (!text.empty()) {
+		const size_t equals = text.find("=\""), end = text.find('"', equals + 2);
+		if (text[0] != ' ' || equals == std::string::npos || end == std::string::npos) return false;
+		if (text.find_first_of(" \"", 1) < equals) return false;
+		text.erase(0, end + 1);
+	}
+	return true;
+}
+
+/** Empty when every tag is closed in order and attributes are quoted; else what is wrong.
+ * By hand: std::regex recurses once a character and would overflow the stack on a long path. */
 inline std::string wellFormednessProblem(const std::string& xml)
 {
-	static const std::regex tag(R"re(^<(/?)([A-Za-z]+)((?: [A-Za-z0-9-]+="[^"<]*")*)(/?)>)re");
-	static const std::regex entity(R"re(^&(amp|lt|gt|quot);)re");
 	std::vector<std::string> open;
 	for (size_t i = 0; i < xml.size(); i++) {
-		std::smatch m;
-		const auto at = xml.begin() + static_cast<long>(i);
-		if (xml[i] == '&' && !std::regex_search(at, xml.end(), m, entity))
-			return "bare & at " + std::to_string(i);
 		if (xml[i] == '>') return "bare > at " + std::to_string(i);
-		if (xml[i] != '<') continue;
-		if (!std::regex_search(at, xml.end(), m, tag)) return "no tag at " + xml.substr(i, 60);
-		i += static_cast<size_t>(m.length()) - 1;
-		if (m[1].length() > 0) {
-			if (open.empty() || open.back() != m[2]) return "</" + m[2].str() + "> closes nothing";
-			open.pop_back();
+		if (xml[i] == '&') {
+			const std::string entity = xml.substr(i, xml.find(';', i) - i);
+			if (entity != "&amp" && entity != "&lt" && entity != "&gt" && entity != "&quot")
+				return "bare &: " + entity;
 		}
-		else if (m[4].length() == 0)
-			open.push_back(m[2]);
+		if (xml[i] != '<') continue;
+		const size_t end = xml.find('>', i);
+		if (end == std::string::npos) return "an open tag at the end";
+		std::string tag = xml.substr(i + 1, end - i - 1);
+		i = end;
+		if (tag[0] == '/') {
+			if (open.empty() || "/" + open.back() != tag) return "<" + tag + "> closes nothing";
+			open.pop_back();
+			continue;
+		}
+		const bool closed = tag.back() == '/';
+		if (closed) tag.pop_back();
+		const std::string name = tag.substr(0, tag.find(' '));
+		if (!attributesAreQuoted(tag.substr(name.size()))) return "attributes of <" + tag.substr(0, 60);
+		if (!closed) open.push_back(name);
 	}
 	return open.empty() ? "" : "<" + open.back() + "> is never closed";
 }
@@ -37,14 +56,17 @@ inline std::string wellFormednessProblem(const std::string& xml)
 /** Points of the n-th curve's path: M and L alike. */
 inline std::vector<Eigen::Vector2d> curvePixels(const std::string& svg, int n)
 {
-	static const std::regex path(R"re(<path class="curve"[^>]* d="([^"]*)")re");
-	static const std::regex point(R"re([ML]([-0-9.]+) ([-0-9.]+))re");
-	auto it = std::sregex_iterator(svg.begin(), svg.end(), path);
-	std::advance(it, n);
-	const std::string d = (*it)[1];
+	size_t at = svg.find("<path class=\"curve\"");
+	for (int i = 0; i < n; i++)
+		at = svg.find("<path class=\"curve\"", at + 1);
+	const size_t start = svg.find(" d=\"", at) + 4;
+	std::string d = svg.substr(start, svg.find('"', start) - start);
+	for (char& c : d)
+		if (c == 'M' || c == 'L') c = ' ';
+	std::istringstream in(d);
 	std::vector<Eigen::Vector2d> points;
-	for (auto p = std::sregex_iterator(d.begin(), d.end(), point); p != std::sregex_iterator(); ++p)
-		points.emplace_back(std::stod((*p)[1]), std::stod((*p)[2]));
+	for (double x, y; in >> x >> y;)
+		points.emplace_back(x, y);
 	return points;
 }
 

@@ -107,7 +107,7 @@ std::string horizontalTicks(const TFrame& f)
 	std::string svg;
 	const double bottom = kTop + f.height;
 	const TTicks ticks =
-		roundTicks(f.range.min().x(), f.range.max().x(), std::max(3, static_cast<int>(f.width / 80)));
+		roundTicks(f.range.min().x(), f.range.max().x(), std::max(3, static_cast<int>(f.width / 65)));
 	for (double value : ticks.values) {
 		const double x = f.pixel({value, f.range.min().y()}).x();
 		svg += line({x, kTop}, {x, bottom}, kGrid);

@@ -33,7 +33,7 @@ inline TLineStyle slam()
 }  ///< blue, thin, solid
 inline TLineStyle loops()
 {
-	return {"#0072b2", 0.7, "1.2 2", 0.8};
+	return {"#0072b2", 0.9, "1.5 2", 0.85};
 }  ///< blue, dotted
 }  // namespace styles
 

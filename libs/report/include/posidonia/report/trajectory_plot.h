@@ -25,6 +25,7 @@ struct TTrajectoryPlot
 std::string plotTrajectories(const TTrajectoryPlot& plot);
 
 /** The accepted loop closings (no sequential or odometry edges) between `nodes`, whose index is their id.
- * Throws CError for an id beyond the nodes. */
+ * Between SLAM nodes they are short where SLAM is good; between the odometry's poses at the nodes they show
+ * the drift that they took away. Throws CError for an id beyond the nodes. */
 std::vector<TSegment> loopSegments(const std::vector<TLoopRow>& rows, const TTrajectory& nodes);
 }  // namespace posidonia
