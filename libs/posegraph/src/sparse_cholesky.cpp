@@ -2,13 +2,36 @@
 #include <posidonia/base/error.h>
 #include <posidonia/posegraph/sparse_cholesky.h>
 
-// Of OpenBLAS; absent (null) with another BLAS.
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+// Of OpenBLAS and of the OpenMP run time that CHOLMOD may bring; absent (null) otherwise.
+extern "C" {
+void openblas_set_num_threads(int) __attribute__((weak));
+int omp_get_max_active_levels() __attribute__((weak));
+void omp_set_max_active_levels(int) __attribute__((weak));
+}
 
 namespace posidonia
 {
 namespace
 {
+/** Keeps CHOLMOD's OpenMP loops on this thread while it lives. Four threads are compiled into CHOLMOD, and
+ * for our small supernodes their barriers cost more than they gain: on a busy machine a thousand times more.
+ */
+class COneThread
+{
+   public:
+	COneThread() : m_levels(omp_get_max_active_levels ? omp_get_max_active_levels() : 0) { set(0); }
+	COneThread(const COneThread&) = delete;
+	COneThread& operator=(const COneThread&) = delete;
+	~COneThread() { set(m_levels); }
+
+   private:
+	static void set(int levels)
+	{
+		if (omp_set_max_active_levels) omp_set_max_active_levels(levels);
+	}
+	int m_levels;
+};
+
 /** A CHOLMOD view of scalar compressed columns; it owns nothing. */
 cholmod_sparse viewOf(
 	int dimension, const std::vector<int>& starts, const std::vector<int>& rows, const double* values)
@@ -135,6 +158,7 @@ void CSparseCholesky::analyze(const CBlockMatrix& H)
 
 bool CSparseCholesky::factorize(const CBlockMatrix& H)
 {
+	const COneThread one_thread;
 	cholmod_sparse A = viewOf(H);
 	m_impl->factorizations++;
 	m_impl->check(cholmod_factorize(&A, m_impl->L, &m_impl->common));
