@@ -1,0 +1,51 @@
+#pragma once
+
+#include <posidonia/apps/command_line.h>
+#include <posidonia/apps/experiment.h>
+#include <posidonia/apps/run_folder.h>
+#include <posidonia/apps/run_texts.h>
+#include <posidonia/apps/scoring.h>
+#include <posidonia/graphslam/stereo_slam.h>
+#include <posidonia/obs/rawlog_reader.h>
+
+#include <memory>
+
+namespace posidonia
+{
+/** auv-graphslam: a rawlog in, a run folder with the corrected trajectory out. */
+class CGraphSlamApp
+{
+   public:
+	static constexpr const char* name = "auv-graphslam";
+
+	/** False when --help, --version, --dump-config or --list-deciders was answered. Throws CError, CUsageError. */
+	bool initialize(int argc, const char* const* argv);
+	void run();
+
+	/** What came out, in memory; the run folder holds the same. */
+	struct TResults
+	{
+		TRunTrajectories trajectories;
+		int nodes{0}, sequential_edges{0}, roi_edges{0};
+		double chi2{0}, dijkstra_chi2{0};
+		TMetrics metrics;
+		std::string folder;
+	};
+	const TResults& results() const { return m_results; }
+	TExperiment params;
+
+   private:
+	void replay(CStereoSlam& slam, CRawlogReader& reader);
+	void remember(const CStereoSlam& slam);
+	void collect(const CStereoSlam& slam, const CRawlogReader& reader);
+	void writeResults(const CStereoSlam& slam);
+	void score(const CStereoSlam& slam);
+	void logSummary(const CStereoSlam& slam, const CRawlogReader& reader);
+
+	std::string m_rawlog, m_truth, m_config_dump;
+	TSensorSuite m_sensors;
+	std::unique_ptr<CRunFolder> m_folder;
+	int m_verbosity{1};
+	TResults m_results;
+};
+}  // namespace posidonia

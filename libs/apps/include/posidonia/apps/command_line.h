@@ -1,0 +1,65 @@
+#pragma once
+
+#include <tclap/CmdLine.h>
+#include <posidonia/base/ini_file.h>
+
+#include <string>
+#include <vector>
+
+namespace posidonia
+{
+/** The flags that every app shares, under the same names. An app adds its own to cmd() before parse(). */
+class CCommandLine
+{
+   public:
+	CCommandLine(const std::string& app, const std::string& description);
+
+	TCLAP::CmdLine& cmd() { return m_cmd; }
+
+	/** False when --help or --version was asked for and answered. Throws CUsageError. */
+	bool parse(int argc, const char* const* argv);
+
+	/** The ini of -c (empty defaults without) with every --set applied. */
+	CIniFile ini() const;
+	std::string configName() const;	 ///< "paper-exp1" of "ini/paper-exp1.ini"; "defaults" without -c
+	std::string outputDir() const { return m_output.getValue(); }
+	int verbosity() const { return m_verbosity.getValue(); }
+	bool wantsConfigDump() const { return m_dump.getValue(); }
+	const std::string& app() const { return m_app; }
+
+   private:
+	std::string m_app;
+	TCLAP::CmdLine m_cmd;
+	TCLAP::ValueArg<std::string> m_config;
+	TCLAP::ValueArg<std::string> m_output;
+	TCLAP::MultiArg<std::string> m_set;
+	TCLAP::ValueArg<int> m_verbosity;
+	TCLAP::SwitchArg m_dump;
+};
+
+/** "Posidonia 0.1.0 ...", with the licences of what is linked. */
+std::string versionText();
+
+/** main() of an app class with initialize(argc, argv) -> bool and run(): prints "app: error: ..." and returns the exit
+ * status: 0 done, 1 failed, 2 wrong command line. */
+template <class APP>
+int runApp(int argc, const char* const* argv);
+
+/** Prints the problem; returns the exit status. */
+int reportProblem(const char* app, const std::exception& problem);
+}  // namespace posidonia
+
+template <class APP>
+int posidonia::runApp(int argc, const char* const* argv)
+{
+	try
+	{
+		APP app;
+		if (app.initialize(argc, argv)) app.run();
+		return 0;
+	}
+	catch (const std::exception& problem)
+	{
+		return reportProblem(APP::name, problem);
+	}
+}

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <posidonia/base/ini_file.h>
+#include <posidonia/eval/evaluate_run.h>
+#include <posidonia/eval/loop_evaluation.h>
+#include <posidonia/graphslam/slam_parts.h>
+#include <posidonia/nav/ekf_options.h>
+#include <posidonia/nav/odometry_corruptor.h>
+#include <posidonia/nav/recorded_odometry.h>
+#include <posidonia/obs/sensor_suite.h>
+#include <posidonia/sim/simulation_options.h>
+
+namespace posidonia
+{
+/** Section [Odometry]. */
+struct TOdometryChoice
+{
+	std::string source{"ekf"};
+
+	template <class VISITOR>
+	void visit(VISITOR& v)
+	{
+		v.choice("source", source, {"ekf", "recorded"}, "ekf: the navigation filter; recorded: poses in the log");
+	}
+};
+
+/** Section [Report]. */
+struct TReportOptions
+{
+	int paper_experiment{0};
+
+	template <class VISITOR>
+	void visit(VISITOR& v)
+	{
+		v.integer("paper_experiment", paper_experiment, between(0, 2), "Print the paper's table of experiment 1 or 2; 0: none");
+	}
+};
+
+/** Everything an ini may say: one file drives all apps, each takes what it needs, and a key that no app knows is an
+ * error in every one of them. */
+struct TExperiment
+{
+	TSimulationOptions simulation;
+	TEkfOptions ekf;
+	TInitialPoseOptions initial_pose;
+	TOdometryChoice odometry;
+	TRecordedOdometryOptions recorded;
+	TOdometryCorruptionOptions corruption;
+	TStereoSlamOptions slam;
+	TEvaluationOptions evaluation;
+	TLoopEvaluationOptions loop_evaluation;
+	TReportOptions report;
+
+	/** Loads every section and overrides `sensors` by the sections [Sensor.<label>]. Throws CError. */
+	static TExperiment load(CIniFile& ini, TSensorSuite& sensors);
+
+	/** The odometry that the ini asks for, corrupted if it asks for that. */
+	std::unique_ptr<COdometrySource> makeOdometry(const TSensorSuite& sensors) const;
+};
+
+/** Pose of the navigation filter (or recording) behind a corruptor, at the present. */
+Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry);
+/** Statistics of the navigation filter behind a corruptor; empty for a recording. */
+std::string navigationText(const COdometrySource& odometry);
+
+/** Sensors of a rawlog: <name>.sensors.ini beside it; SPARUS II's with `assume_defaults` when it is absent. */
+TSensorSuite sensorsOfRawlog(const std::string& rawlog, bool assume_defaults);
+}  // namespace posidonia

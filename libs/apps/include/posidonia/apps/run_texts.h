@@ -1,0 +1,23 @@
+#pragma once
+
+#include <mrpt/system/CTimeLogger.h>
+#include <posidonia/eval/metrics.h>
+#include <posidonia/graphslam/slam_map.h>
+
+#include <string>
+#include <vector>
+
+namespace posidonia
+{
+/** timings.csv: stage,calls,mean_ms,max_ms,total_s,ms_per_node. */
+std::string timingsCsv(mrpt::system::CTimeLogger& timer, int nodes);
+
+/** "312 candidates: 201 too few matches, 74 RANSAC failed, 37 accepted", by kind. */
+std::string candidateCounts(const std::vector<TCandidateRow>& rows);
+
+/** The few numbers of a score that a terminal needs. */
+std::string scoreSummary(const TMetrics& metrics);
+
+/** The truth to score by: `given` (must exist), else <name>.gt.tum beside the rawlog, else empty. */
+std::string truthFor(const std::string& rawlog, const std::string& given);
+}  // namespace posidonia

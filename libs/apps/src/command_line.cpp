@@ -1,0 +1,94 @@
+#include <posidonia/apps/command_line.h>
+#include <posidonia/base/error.h>
+
+#include <filesystem>
+#include <iostream>
+
+namespace posidonia
+{
+namespace
+{
+constexpr const char* kVersion = POSIDONIA_VERSION;
+}
+
+std::string versionText()
+{
+	return std::string("Posidonia ") + kVersion +
+		   ": stereo graph-SLAM for AUVs, on MRPT\n"
+		   "Sources: BSD-3-Clause. This program links SuiteSparse's CHOLMOD, whose Supernodal, Modify and MatrixOps\n"
+		   "modules are GPL-2+: the binary as a whole falls under the GPL.\n";
+}
+
+namespace
+{
+/** TCLAP's --version line, ours. */
+class CVersionOutput : public TCLAP::StdOutput
+{
+   public:
+	void version(TCLAP::CmdLineInterface&) override { std::cout << versionText(); }
+	void failure(TCLAP::CmdLineInterface&, TCLAP::ArgException& e) override { throw e; }
+};
+}  // namespace
+
+CCommandLine::CCommandLine(const std::string& app, const std::string& description)
+	: m_app(app),
+	  m_cmd(description + "\nExit status: 0 done, 1 failed, 2 wrong command line.", ' ', kVersion),
+	  m_config("c", "config", "Ini file; without it every key has its default", false, "", "FILE.ini", m_cmd),
+	  m_output("o", "output-dir", "Folder for the results", false, "", "DIR", m_cmd),
+	  m_set("", "set", "Override one key; may be repeated", false, "Section.key=value", m_cmd),
+	  m_verbosity("v", "verbosity", "0 quiet, 1 summary (default), 2 details", false, 1, "0|1|2", m_cmd),
+	  m_dump("", "dump-config", "Print the configuration as used, with every key's meaning, and stop", m_cmd)
+{
+	m_cmd.setExceptionHandling(false);
+}
+
+bool CCommandLine::parse(int argc, const char* const* argv)
+{
+	static CVersionOutput output;
+	m_cmd.setOutput(&output);
+	try
+	{
+		m_cmd.parse(argc, argv);
+	}
+	catch (const TCLAP::ExitException&)
+	{
+		return false;
+	}
+	catch (const TCLAP::ArgException& e)
+	{
+		throw CUsageError(e.argId() == " " ? "command line" : e.argId(), e.error(), "see " + m_app + " --help");
+	}
+	return true;
+}
+
+CIniFile CCommandLine::ini() const
+{
+	CIniFile ini = m_config.isSet() ? CIniFile::fromFile(m_config.getValue()) : CIniFile::fromText("", "defaults");
+	for (const auto& assignment : m_set.getValue()) ini.set(assignment);
+	return ini;
+}
+
+std::string CCommandLine::configName() const
+{
+	return m_config.isSet() ? std::filesystem::path(m_config.getValue()).stem().string() : "defaults";
+}
+
+namespace
+{
+/** MRPT's exceptions come with a call stack; a user needs the message. */
+std::string firstParagraph(const std::string& text)
+{
+	const auto marker = text.find("Message:");
+	std::string message = marker == std::string::npos ? text : text.substr(marker + 8);
+	for (const char* end : {"\nLocation:", "\n==", "\nCall"}) message = message.substr(0, message.find(end));
+	const auto first = message.find_first_not_of(" \n"), last = message.find_last_not_of(" \n");
+	return first == std::string::npos ? text : message.substr(first, last - first + 1);
+}
+}  // namespace
+
+int reportProblem(const char* app, const std::exception& problem)
+{
+	std::cerr << app << ": error: " << firstParagraph(problem.what()) << "\n";
+	return dynamic_cast<const CUsageError*>(&problem) ? 2 : 1;
+}
+}  // namespace posidonia

@@ -1,0 +1,60 @@
+#include <posidonia/apps/experiment.h>
+#include <posidonia/nav/ekf_odometry.h>
+
+#include <filesystem>
+
+namespace posidonia
+{
+TExperiment TExperiment::load(CIniFile& ini, TSensorSuite& sensors)
+{
+	TExperiment e;
+	const auto section = [&](const char* name, auto& options) { ini.loadOnto(options, name); };
+	e.simulation.forEachSection(section);
+	section("Ekf", e.ekf);
+	section("InitialPose", e.initial_pose);
+	section("Odometry", e.odometry);
+	section("RecordedOdometry", e.recorded);
+	section("OdometryCorruption", e.corruption);
+	e.slam.forEachSection(section);
+	section("Evaluation", e.evaluation);
+	section("Evaluation", e.loop_evaluation);
+	section("Report", e.report);
+	overrideSensors(sensors, ini);
+	ini.refuseUnknown();
+	return e;
+}
+
+std::unique_ptr<COdometrySource> TExperiment::makeOdometry(const TSensorSuite& sensors) const
+{
+	std::unique_ptr<COdometrySource> source;
+	if (odometry.source == "recorded")
+		source = std::make_unique<CRecordedOdometry>(recorded);
+	else
+		source = std::make_unique<CEkfOdometry>(ekf, initial_pose, sensors, simulation.world);
+	return std::make_unique<COdometryCorruptor>(std::move(source), corruption);
+}
+
+namespace
+{
+const COdometrySource& behindCorruptor(const COdometrySource& odometry)
+{
+	const auto* corruptor = dynamic_cast<const COdometryCorruptor*>(&odometry);
+	return corruptor ? corruptor->source() : odometry;
+}
+}  // namespace
+
+Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry) { return behindCorruptor(odometry).now().T; }
+
+std::string navigationText(const COdometrySource& odometry)
+{
+	const auto* ekf = dynamic_cast<const CEkfOdometry*>(&behindCorruptor(odometry));
+	return ekf ? ekf->statistics().text() : std::string();
+}
+
+TSensorSuite sensorsOfRawlog(const std::string& rawlog, bool assume_defaults)
+{
+	const std::string path = sensorsPathOf(rawlog);
+	if (assume_defaults && !std::filesystem::exists(path)) return TSensorSuite::sparus2();
+	return readSensors(path);
+}
+}  // namespace posidonia

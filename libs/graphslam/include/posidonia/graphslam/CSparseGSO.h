@@ -1,0 +1,38 @@
+#pragma once
+
+#include <mrpt/graphslam/interfaces/CGraphSlamOptimizer.h>
+#include <posidonia/graphslam/slam_parts.h>
+#include <posidonia/posegraph/pose_graph.h>
+
+namespace posidonia
+{
+/** Optimises the graph (paper, eq. 2) with libs/posegraph whenever a stereo edge was added, and tells the loop gate how
+ * sure the graph is. The root is held fixed. */
+class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlamGraph>,
+				   public CUsesSlamParts,
+				   public CRelativeUncertainty
+{
+   public:
+	void useParts(TSlamParts& parts) override;
+
+	bool updateState(
+		mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
+		mrpt::obs::CObservation::Ptr observation) override;
+	bool justFullyOptimizedGraph() const override { return m_just_optimized; }
+
+	std::vector<Matrix6d> relativeCovariances(const CSlamMap& map, const std::vector<int>& is, int j) override;
+
+   protected:
+	void optimizeGraph() override;
+
+   private:
+	bool follow();
+
+	CPoseGraph m_pose_graph;
+	std::unique_ptr<CSparseOptimizer> m_optimizer;
+	bool m_just_optimized{false};
+};
+
+/** The map as a pose graph: nodes at their present poses, the root fixed, robust losses on the stereo edges. */
+CPoseGraph toPoseGraph(const CSlamMap& map, const TGraphLossOptions& loss);
+}  // namespace posidonia

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <mrpt/graphs/CNetworkOfPoses.h>
+#include <posidonia/geometry/se3.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace posidonia
+{
+struct TKeyFrame;
+
+/** MRPT's graph: nodes are global poses T_map_body, edges Gaussians in information form. */
+using TSlamGraph = mrpt::graphs::CNetworkOfPoses3DInf;
+
+enum class EEdgeKind
+{
+	ODOMETRY,
+	SEQUENTIAL,
+	ROI
+};
+/** "odometry", "sequential", "roi". */
+const char* toString(EEdgeKind kind);
+
+/** What a node knows beside its pose in the graph. */
+struct TSlamNode
+{
+	double stamp{0};  ///< UTC [s]
+	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};  ///< The odometry's pose at `stamp`
+	std::shared_ptr<const TKeyFrame> key_frame;	 ///< Null until an edge decider asked for it
+};
+
+/** A constraint T_from_to between two nodes with its information over (rho, phi). */
+struct TSlamEdge
+{
+	int from{0}, to{0};
+	EEdgeKind kind{EEdgeKind::ODOMETRY};
+	Eigen::Isometry3d T_from_to{Eigen::Isometry3d::Identity()};
+	Matrix6d information{Matrix6d::Identity()};
+	double path_length{0};	///< Odometry edges: metres travelled
+};
+
+/** A candidate pair and what became of it: a row of loops.csv. */
+struct TCandidateRow
+{
+	int from{0}, to{0};
+	EEdgeKind kind{EEdgeKind::ROI};
+	std::string status;
+	int matches{0}, inliers{0};
+	double rmse_px{0};
+	Eigen::Isometry3d T_from_to{Eigen::Isometry3d::Identity()};
+	bool measured{false};  ///< Does T_from_to hold a registration?
+};
+
+/** The map that deciders and optimiser share: MRPT's graph with, in order of insertion and without the detour
+ * through yaw-pitch-roll, what each node and edge is. Whoever adds a node or an edge adds it here, and here alone. */
+class CSlamMap
+{
+   public:
+	/** Binds to the engine's graph; it must outlive this object. */
+	void bind(TSlamGraph& graph) { m_graph = &graph; }
+
+	/** Adds node number nodeCount() at T_map_body. */
+	void addNode(const TSlamNode& node, const Eigen::Isometry3d& T_map_body);
+	/** Adds an edge to MRPT's graph, too. */
+	void addEdge(const TSlamEdge& edge);
+
+	int nodeCount() const { return static_cast<int>(m_nodes.size()); }
+	int lastNode() const { return nodeCount() - 1; }
+	const TSlamNode& node(int i) const { return m_nodes[static_cast<size_t>(i)]; }
+	void setKeyFrame(int i, std::shared_ptr<const TKeyFrame> key_frame);
+	const std::vector<TSlamNode>& nodes() const { return m_nodes; }
+	const std::vector<TSlamEdge>& edges() const { return m_edges; }
+
+	/** T_map_body of a node as the graph has it now. */
+	Eigen::Isometry3d pose(int i) const;
+	void setPose(int i, const Eigen::Isometry3d& T_map_body);
+	/** Prediction of T_i_j by the present poses. */
+	Eigen::Isometry3d relativePose(int i, int j) const { return pose(i).inverse() * pose(j); }
+
+	/** For each node, the fewest metres of odometry edges on any way through the graph to `to`; stereo edges count
+	 * nothing, since they do not pass on the odometry's drift. */
+	std::vector<double> odometryMetresTo(int to) const;
+
+	std::vector<TCandidateRow> candidates;	///< Every pair that was considered, in order
+
+   private:
+	TSlamGraph* m_graph{nullptr};
+	std::vector<TSlamNode> m_nodes;
+	std::vector<TSlamEdge> m_edges;
+	std::vector<std::vector<int>> m_edges_of;  // indices of the edges at each node
+};
+
+/** loops.csv of the candidates: from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw. */
+std::string candidatesCsv(const std::vector<TCandidateRow>& rows);
+}  // namespace posidonia

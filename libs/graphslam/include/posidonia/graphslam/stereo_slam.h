@@ -1,0 +1,57 @@
+#pragma once
+
+#include <posidonia/geometry/trajectory.h>
+#include <posidonia/graphslam/slam_parts.h>
+
+#include <memory>
+#include <string>
+
+namespace posidonia
+{
+/** The pose handed out at a stereo pair, when it was handed out. */
+struct TCausalPose
+{
+	double stamp{0};
+	Eigen::Isometry3d T_map_body{Eigen::Isometry3d::Identity()};
+	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};
+};
+
+/** Stereo graph-SLAM as one object: observations go in, in order of arrival; poses come out. It owns the odometry, the
+ * deciders, the optimiser and the MRPT engine that runs them; no one outside needs to include the engine. */
+class CStereoSlam
+{
+   public:
+	/** @param config_file ini that MRPT's engine and its own optimiser read (may be empty: their defaults)
+	 * Throws CError for an unknown decider or optimiser, with the names that are known. */
+	CStereoSlam(
+		const TStereoSlamOptions& options, const TSensorSuite& sensors, std::unique_ptr<COdometrySource> odometry,
+		std::unique_ptr<CStereoImageLoader> images, const std::string& config_file = "");
+	~CStereoSlam();
+
+	void add(const mrpt::obs::CObservation::Ptr& observation);
+
+	/** Map and odometry now; T_map_body = T_map_odom T_odom_body with T_map_odom from the last node. */
+	TCausalPose now() const;
+	/** Was a node made by the last observation? */
+	bool addedNode() const;
+
+	/** Every pose handed out at a stereo pair (never rewritten). */
+	const std::vector<TCausalPose>& causal() const;
+	/** The nodes as they are now. */
+	TTrajectory nodes() const;
+	const CSlamMap& map() const;
+	const COdometrySource& odometry() const;
+	mrpt::system::CTimeLogger& timer() const;
+
+	/** Chi-square of the edges at the present poses, and at poses composed by Dijkstra from the root. */
+	double chi2() const;
+	double dijkstraChi2() const;
+	/** g2o file of the graph (17 digits). */
+	void saveG2o(const std::string& path) const;
+
+   private:
+	struct TImplementation;
+	std::unique_ptr<TImplementation> m_impl;
+};
+
+}  // namespace posidonia

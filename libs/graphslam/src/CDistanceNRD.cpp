@@ -1,0 +1,55 @@
+#include <mrpt/obs/CObservationStereoImages.h>
+#include <posidonia/geometry/mrpt_pose.h>
+#include <posidonia/graphslam/CDistanceNRD.h>
+
+namespace posidonia
+{
+using Eigen::Isometry3d;
+using namespace mrpt::obs;
+
+bool CDistanceNRD::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObservation::Ptr observation)
+{
+	const auto pair = std::dynamic_pointer_cast<CObservationStereoImages>(observation);
+	if (!pair || !m_parts->odometry.ready()) return false;
+	if (m_parts->map.nodeCount() == 0)
+	{
+		registerRoot(stampOf(*pair));
+		return true;
+	}
+	const TPoseEstimate since_node = m_parts->odometry.sinceClone();
+	if (!farEnough(since_node.T.translation().norm())) return false;
+	registerNode(stampOf(*pair), since_node);
+	return true;
+}
+
+bool CDistanceNRD::farEnough(double displacement)
+{
+	const double step = std::abs(displacement - m_last_displacement);
+	m_last_displacement = displacement;
+	return displacement >= m_parts->options.node.distance - step / 2;
+}
+
+void CDistanceNRD::registerRoot(double stamp)
+{
+	const Isometry3d T_odom_body = m_parts->odometry.now().T;  // map and odom start equal
+	m_parts->map.addNode({stamp, T_odom_body, {}}, T_odom_body);
+}
+
+void CDistanceNRD::registerNode(double stamp, const TPoseEstimate& since_node)
+{
+	CSlamMap& map = m_parts->map;
+	const int from = map.lastNode();
+	map.addNode({stamp, m_parts->odometry.now().T, {}}, map.pose(from) * since_node.T);
+	map.addEdge(
+		{from, from + 1, EEdgeKind::ODOMETRY, since_node.T, since_node.cov.inverse(), since_node.path_length});
+	m_last_displacement = 0;
+}
+
+TSlamGraph::global_pose_t CDistanceNRD::getCurrentRobotPosEstimation() const
+{
+	const CSlamMap& map = m_parts->map;
+	if (map.nodeCount() == 0) return {};
+	const Isometry3d T_map_odom = map.pose(map.lastNode()) * map.node(map.lastNode()).T_odom_body.inverse();
+	return TSlamGraph::global_pose_t(toMrpt(T_map_odom * m_parts->odometry.now().T));
+}
+}  // namespace posidonia
