@@ -12,7 +12,7 @@ namespace
 struct TPublicGraph
 {
 	const char* name;
-	double optimum;	 ///< chi2 of g2o's residual, found alike by g2o, Ceres and GTSAM
+	double optimum;	 ///< chi2 of g2o's residual at the optimum
 };
 
 std::string pathOf(const char* name)
