@@ -96,6 +96,10 @@ void readAxes(TImport& import)
 	report.warnings = import.axes.warnings;
 	report.levelled = import.options.level;
 	if (import.options.level) {
+		if (!fs::is_directory(import.mav0 + "/imu0"))
+			throw CError(
+				import.mav0, "levelling needs imu0, which is absent",
+				"give T_FRD_body in body.yaml instead of --level");
 		const CSensorYaml imu(import.mav0 + "/imu0/sensor.yaml");
 		CBadRows counted_later(import.options.skip_bad);
 		const Eigen::Vector3d force = meanForceOfFirstSecond(import.mav0 + "/imu0/data.csv", counted_later);
