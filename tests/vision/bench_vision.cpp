@@ -68,14 +68,30 @@ const TKind KINDS[] = {{"neighbour 0.5 m", 0.5, 0, 0, 1, 2},	{"neighbour 1.0 m",
 struct TResult
 {
 	TSample mm, mrad, chi2, matches, inliers, align_ms, rmse, pointchi2;
+	TSample component[6], effect[3];
 	int accepted{0}, wrong{0}, pairs{0};
 	std::map<std::string, int> refused;
+};
+
+struct TBench
+{
+	int pairs{10}, first_kind{0}, last_kind{7};
+	bool procedural{true}, reef{true};
+	template <class VISITOR>
+	void visit(VISITOR& v)
+	{
+		v.integer("pairs", pairs, atLeast(1), "Pairs of a kind");
+		v.integer("first_kind", first_kind, between(0, 7), "First kind of pair");
+		v.integer("last_kind", last_kind, between(0, 7), "Last kind of pair");
+		v.flag("procedural", procedural, "Over procedural noise");
+		v.flag("reef", reef, "Over the photograph");
+	}
 };
 
 /** Noise by octave against the known floor. */
 struct TNoise
 {
-	std::map<int, TSample> disparity_px, disparity_sigmas, place_px, place_sigmas, shift_u, shift_v;
+	std::map<int, TSample> locking, disparity_px, disparity_sigmas, place_px, place_sigmas, shift_u, shift_v;
 };
 
 int octaveOf(const TStereoPoint& p)
@@ -99,7 +115,7 @@ double trueDisparity(const TStereoCamera& c, const Eigen::Isometry3d& T, const T
 
 void run(
 	const cv::Mat& texture, double metres_per_pixel, const TFeatureOptions& fo,
-	const TRegistrationOptions& ro, int pairs)
+	const TRegistrationOptions& ro, const TBench& bench)
 {
 	const TStereoCamera camera;
 	const CFloorRenderer renderer(texture, metres_per_pixel, camera);
@@ -113,9 +129,10 @@ void run(
 	TSample extract_ms, points;
 	TNoise noise;
 	TSample all_chi2;
-	for (const TKind& kind : KINDS) {
+	for (int k = bench.first_kind; k <= bench.last_kind; k++) {
+		const TKind& kind = KINDS[k];
 		TResult result;
-		for (int i = 0; i < pairs; i++) {
+		for (int i = 0; i < bench.pairs; i++) {
 			const double x = reach_x * unit(rng), y = reach_y * unit(rng), yaw = M_PI * unit(rng),
 						 deg = M_PI / 180;
 			const auto tilt = [&] { return kind.tilt_deg * deg * unit(rng); };
@@ -154,27 +171,46 @@ void run(
 			result.mrad.add(1e3 * e.tail<3>().norm());
 			result.chi2.add(e.dot(r.information * e) / 6);
 			all_chi2.add(e.dot(r.information * e) / 6);
+			const Matrix6d covariance = r.information.inverse();
+			for (int k = 0; k < 6; k++)
+				result.component[k].add(e[k] / std::sqrt(covariance(k, k)));
 			result.matches.add(r.matches);
 			result.inliers.add(r.inliers);
 			result.rmse.add(r.rmse_px);
 			result.pointchi2.add(r.chi2 / r.dof());
-			for (const auto& [k, l] : r.inlier_pairs) {
+			// Noise of all right matches, also of those the robust loss left out.
+			TSample in_u, in_v, in_d;
+			for (const auto& p : a.points) {
+				const double x = (p.uvd().z() - trueDisparity(camera, T_w_a, p)) / p.sigma_d;
+				if (std::abs(x) >= 4) continue;
+				in_d.add(x);
+				const double t = trueDisparity(camera, T_w_a, p);
+				noise.locking[static_cast<int>(10 * (t - std::floor(t)))].add(1e3 * x * p.sigma_d);
+			}
+			for (const auto& [k, l] : registration.match(a, b)) {
 				const Eigen::Vector2d d =
-					floorPoint(camera, T_w_a, a.points[k]) - floorPoint(camera, T_w_b, b.points[l]);
-				const double pixel_a = a.points[k].point.z() / camera.fx,
-							 pixel_b = b.points[l].point.z() / camera.fx;
+					T_w_a.linear().topLeftCorner<2, 2>().transpose() *
+					(floorPoint(camera, T_w_a, a.points[k]) - floorPoint(camera, T_w_b, b.points[l]));
+				const double pixel_a = -T_w_a.translation().z() / camera.fx,
+							 pixel_b = -T_w_b.translation().z() / camera.fx;
 				const double sa = a.points[k].sigma_uv * pixel_a, sb = b.points[l].sigma_uv * pixel_b;
 				const int octave = octaveOf(a.points[k]);
-				if (kind.yaw_deg == 180) {
-					const Eigen::Vector2d in_a =
-						0.5 * (T_w_a.linear().topLeftCorner<2, 2>().transpose() * d) / pixel_a;
-					noise.shift_u[octave].add(in_a.x()), noise.shift_v[octave].add(in_a.y());
-				}
+				if (d.norm() > 2 * pixel_a * std::exp2(0.5 * octave)) continue;
+				if (kind.yaw_deg == 180)
+					noise.shift_u[octave].add(0.5 * d.x() / pixel_a),
+						noise.shift_v[octave].add(0.5 * d.y() / pixel_a);
 				for (int m = 0; m < 2; m++) {
+					const double x = d[m] / std::hypot(sa, sb);
 					noise.place_px[octave].add(d[m] / std::hypot(pixel_a, pixel_b));
-					noise.place_sigmas[octave].add(d[m] / std::hypot(sa, sb));
+					noise.place_sigmas[octave].add(x);
+					if (std::abs(x) < 4) (m ? in_v : in_u).add(x);
 				}
 			}
+			const auto effect = [](TSample& s) {
+				return std::pow(s.mean() / s.rms(), 2) * static_cast<double>(s.values.size());
+			};
+			result.effect[0].add(effect(in_u)), result.effect[1].add(effect(in_v)),
+				result.effect[2].add(effect(in_d));
 		}
 		std::printf(
 			"%-16s %3d/%3d ok %d wrong | matches %4.0f inliers %4.0f | mm %6.2f p90 %6.2f | mrad %5.2f p90 "
@@ -184,6 +220,12 @@ void run(
 			result.mrad.quantile(0.5), result.mrad.quantile(0.9), result.chi2.mean(),
 			result.chi2.quantile(0.5), result.pointchi2.mean(), result.rmse.mean(),
 			result.align_ms.quantile(0.5));
+		std::printf(" | xyz rpy rms/sigma");
+		for (auto& c : result.component)
+			std::printf(" %.2f", c.rms());
+		std::printf(
+			" | design effect u v d %.1f %.1f %.1f", result.effect[0].mean(), result.effect[1].mean(),
+			result.effect[2].mean());
 		for (const auto& [why, n] : result.refused)
 			std::printf(" [%s %d]", why.c_str(), n);
 		std::printf("\n");
@@ -191,6 +233,10 @@ void run(
 	std::printf(
 		"all: chi2/6 mean %.2f over %zu; extract %.1f ms CPU, %.0f points\n", all_chi2.mean(),
 		all_chi2.values.size(), extract_ms.quantile(0.5), points.quantile(0.5));
+	std::printf("disparity bias [1e-3 px] by tenth of the true disparity's fraction:");
+	for (auto& [tenth, s] : noise.locking)
+		std::printf(" %.1f", s.mean());
+	std::printf("\n");
 	for (auto& [octave, s] : noise.disparity_px)
 		std::printf(
 			"octave %d: disparity n %6zu mean %6.3f sigma %.3f rms %.3f px = sigma %.2f rms %.2f stated | "
@@ -206,17 +252,19 @@ void run(
 int main(int argc, char** argv)
 {
 	CIniFile ini = CIniFile::fromText("");
-	const int pairs = argc > 2 ? std::atoi(argv[2]) : 10;
-	if (argc > 1) ini.set(std::string("Features.detector=") + argv[1]);
-	for (int i = 3; i < argc; i++)
+	for (int i = 1; i < argc; i++)
 		ini.set(argv[i]);
+	const auto bench = ini.load<TBench>("Bench");
 	const auto fo = ini.load<TFeatureOptions>("Features");
 	const auto ro = ini.load<TRegistrationOptions>("Registration");
 	ini.refuseUnknown();
-	std::printf("procedural floor, %s\n", fo.detector.c_str());
-	run(CFloorRenderer::proceduralTexture(5000, 3), 0.004, fo, ro, pairs);
-	if (const auto reef = CFloorRenderer::reefPhotograph()) {
-		std::printf("reef photograph\n");
-		run(*reef, 0.0055, fo, ro, pairs);
+	if (bench.procedural) {
+		std::printf("procedural floor, %s\n", fo.detector.c_str());
+		run(CFloorRenderer::proceduralTexture(5000, 3), 0.004, fo, ro, bench);
+	}
+	const auto reef = CFloorRenderer::reefPhotograph();
+	if (bench.reef && reef) {
+		std::printf("reef photograph, %s\n", fo.detector.c_str());
+		run(*reef, 0.0055, fo, ro, bench);
 	}
 }

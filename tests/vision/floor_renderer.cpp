@@ -65,25 +65,41 @@ Eigen::Isometry3d CFloorRenderer::pose(
 	return T;
 }
 
+float CFloorRenderer::grey(double x, double y) const
+{
+	// Exact bilinear interpolation (cv::remap rounds places to 1/32 pixel); mirrored beyond the texture.
+	const auto mirrored = [](int i, int n) {
+		const int k = ((i % (2 * n)) + 2 * n) % (2 * n);
+		return k < n ? k : 2 * n - 1 - k;
+	};
+	const double c = x / m_metres_per_pixel + 0.5 * m_texture.cols,
+				 r = y / m_metres_per_pixel + 0.5 * m_texture.rows;
+	const int c0 = static_cast<int>(std::floor(c)), r0 = static_cast<int>(std::floor(r));
+	const float fc = static_cast<float>(c - c0), fr = static_cast<float>(r - r0);
+	const uint8_t* upper = m_texture.ptr(mirrored(r0, m_texture.rows));
+	const uint8_t* lower = m_texture.ptr(mirrored(r0 + 1, m_texture.rows));
+	const int left = mirrored(c0, m_texture.cols), right = mirrored(c0 + 1, m_texture.cols);
+	return (1 - fr) * ((1 - fc) * upper[left] + fc * upper[right]) +
+		   fr * ((1 - fc) * lower[left] + fc * lower[right]);
+}
+
 cv::Mat CFloorRenderer::view(const Eigen::Isometry3d& T) const
 {
 	constexpr int FINER = 2;
-	cv::Mat map(m_camera.height * FINER, m_camera.width * FINER, CV_32FC2);
-	for (int i = 0; i < map.rows; i++)
-		for (int j = 0; j < map.cols; j++) {
-			const double u = (j + 0.5) / FINER - 0.5, v = (i + 0.5) / FINER - 0.5;
-			const Eigen::Vector3d ray =
-				T.linear() *
-				Eigen::Vector3d((u - m_camera.cx) / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1);
-			const Eigen::Vector3d p = T.translation() - ray * (T.translation().z() / ray.z());
-			map.at<cv::Vec2f>(i, j) = {
-				static_cast<float>(p.x() / m_metres_per_pixel + 0.5 * m_texture.cols),
-				static_cast<float>(p.y() / m_metres_per_pixel + 0.5 * m_texture.rows)};
+	cv::Mat out(m_camera.height, m_camera.width, CV_32F);
+	for (int i = 0; i < out.rows; i++)
+		for (int j = 0; j < out.cols; j++) {
+			float sum = 0;
+			for (int k = 0; k < FINER * FINER; k++) {
+				const double u = j + (k % FINER + 0.5) / FINER - 0.5, v = i + (k / FINER + 0.5) / FINER - 0.5;
+				const Eigen::Vector3d ray =
+					T.linear() *
+					Eigen::Vector3d((u - m_camera.cx) / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1);
+				const Eigen::Vector3d p = T.translation() - ray * (T.translation().z() / ray.z());
+				sum += grey(p.x(), p.y());
+			}
+			out.at<float>(i, j) = sum / (FINER * FINER);
 		}
-	cv::Mat fine, out;
-	cv::remap(m_texture, fine, map, {}, cv::INTER_LINEAR, cv::BORDER_REFLECT);
-	fine.convertTo(fine, CV_32F);
-	cv::resize(fine, out, {m_camera.width, m_camera.height}, 0, 0, cv::INTER_AREA);
 	return out;
 }
 

@@ -35,6 +35,7 @@ class CFloorRenderer
 		double x, double y, double altitude, double yaw, double pitch = 0, double roll = 0);
 
    private:
+	float grey(double x, double y) const;
 	cv::Mat view(const Eigen::Isometry3d& T_world_camera) const;
 
 	cv::Mat m_texture;

@@ -12,7 +12,7 @@ namespace posidonia
 namespace
 {
 /** Detectors give up to this many times the wanted number, for the grid to choose from. */
-constexpr int GRID_CHOICE = 3;
+constexpr int GRID_CHOICE = 2;
 
 cv::Ptr<cv::Feature2D> makeDetector(const TFeatureOptions& o)
 {

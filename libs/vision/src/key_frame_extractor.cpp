@@ -56,7 +56,7 @@ std::optional<TStereoPoint> CKeyFrameExtractor::measure(
 		uvd.x() = 0.5 * (uvd.x() + right.pt.x + a->disparity);
 		uvd.y() = 0.5 * (uvd.y() + right.pt.y);
 	}
-	const double sigma_uv = m_options.sigma_uv * std::pow(m_options.sigma_uv_growth, octave);
+	const double sigma_uv = m_options.positionSigma(octave);
 	const double sigma_d = std::hypot(m_options.sigma_disparity, m_options.disparity_noise_scale * a->sigma);
 	return makeStereoPoint(m_camera, uvd, sigma_uv, sigma_d, octave);
 }

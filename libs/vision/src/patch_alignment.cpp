@@ -8,9 +8,10 @@ namespace posidonia
 {
 namespace
 {
-/** Smoothing before interpolation [px]: without it the interpolation's error pulls disparities to whole
- * pixels. */
-constexpr double SMOOTHING = 0.8;
+/** Smoothing before the alignment [px]. Images hold some texture above their sampling limit, which comes back
+ * as aliases that pull every disparity to the whole pixel; on a flat floor all points share one fraction, so
+ * that does not average out: 0.8 px of smoothing left 0.02 px of it, 1.5 px leaves 0.006. */
+constexpr double SMOOTHING = 1.5;
 constexpr int MAX_ITERATIONS = 12;
 constexpr double CONVERGED = 1e-3;	// [px]
 
@@ -22,42 +23,46 @@ cv::Mat smoothed(const cv::Mat& image)
 {
 	cv::Mat f;
 	image.convertTo(f, CV_32F);
-	cv::GaussianBlur(f, f, cv::Size(7, 7), SMOOTHING);
+	cv::GaussianBlur(f, f, cv::Size(9, 9), SMOOTHING);
 	return f;
 }
 
-/** Catmull-Rom weights of the samples at -1, 0, 1, 2 for the place t in [0, 1), and their derivatives by t.
- */
+/** Slope along the row, fourth order. */
+cv::Mat slope(const cv::Mat& image)
+{
+	const cv::Mat kernel = (cv::Mat_<float>(1, 5) << 1, -8, 0, 8, -1) / 12;
+	cv::Mat out;
+	cv::filter2D(image, out, CV_32F, kernel);
+	return out;
+}
+
+/** Catmull-Rom weights of the samples at -1, 0, 1, 2 for the place t in [0, 1). */
 struct TCubic
 {
-	float w[4], dw[4];
+	float w[4];
 	explicit TCubic(double t)
 	{
 		const double t2 = t * t, t3 = t2 * t;
-		const double a[4] = {
-			-0.5 * t + t2 - 0.5 * t3, 1 - 2.5 * t2 + 1.5 * t3, 0.5 * t + 2 * t2 - 1.5 * t3,
-			-0.5 * t2 + 0.5 * t3};
-		const double b[4] = {
-			-0.5 + 2 * t - 1.5 * t2, -5 * t + 4.5 * t2, 0.5 + 4 * t - 4.5 * t2, -t + 1.5 * t2};
-		for (int i = 0; i < 4; i++)
-			w[i] = static_cast<float>(a[i]), dw[i] = static_cast<float>(b[i]);
+		w[0] = static_cast<float>(-0.5 * t + t2 - 0.5 * t3);
+		w[1] = static_cast<float>(1 - 2.5 * t2 + 1.5 * t3);
+		w[2] = static_cast<float>(0.5 * t + 2 * t2 - 1.5 * t3);
+		w[3] = static_cast<float>(-0.5 * t2 + 0.5 * t3);
 	}
 };
 }  // namespace
 
-/** Centred second moments of left L, right R and the right's slope G. */
+/** Centred second moments of left L, right R and the left's slope G. */
 struct CPatchAligner::TNormalEquations
 {
 	double n{0}, l{0}, r{0}, g{0}, ll{0}, rr{0}, gg{0}, lr{0}, lg{0}, rg{0};
 
-	void addRow(const float* left, const float* right, int count, const TCubic& c)
+	void addRow(const float* left, const float* gradient, const float* right, int count, const TCubic& c)
 	{
 		float s[9] = {};
 		for (int i = 0; i < count; i++) {
 			const float* p = right + i;
-			const float L = left[i];
+			const float L = left[i], G = gradient[i];
 			const float R = c.w[0] * p[-1] + c.w[1] * p[0] + c.w[2] * p[1] + c.w[3] * p[2];
-			const float G = c.dw[0] * p[-1] + c.dw[1] * p[0] + c.dw[2] * p[1] + c.dw[3] * p[2];
 			s[0] += L, s[1] += R, s[2] += G;
 			s[3] += L * L, s[4] += R * R, s[5] += G * G;
 			s[6] += L * R, s[7] += L * G, s[8] += R * G;
@@ -73,7 +78,7 @@ struct CPatchAligner::TNormalEquations
 };
 
 CPatchAligner::CPatchAligner(const cv::Mat& left, const cv::Mat& right)
-	: m_left(smoothed(left)), m_right(smoothed(right))
+	: m_left(smoothed(left)), m_left_slope(slope(m_left)), m_right(smoothed(right))
 {
 }
 
@@ -87,7 +92,8 @@ bool CPatchAligner::linearise(int x, int y, double disparity, int radius, TNorma
 	const TCubic cubic(u - whole);
 	for (int j = y - radius; j <= y + radius; j++)
 		n.addRow(
-			m_left.ptr<float>(j) + x - radius, m_right.ptr<float>(j) + whole - radius, 2 * radius + 1, cubic);
+			m_left.ptr<float>(j) + x - radius, m_left_slope.ptr<float>(j) + x - radius,
+			m_right.ptr<float>(j) + whole - radius, 2 * radius + 1, cubic);
 	n.centre();
 	return true;
 }
@@ -102,18 +108,19 @@ std::optional<TPatchAlignment> CPatchAligner::align(
 	for (int i = 0; i < MAX_ITERATIONS; i++) {
 		TNormalEquations e;
 		if (!linearise(x, y, d, radius, e)) return {};
-		// L - mean = gain (R - mean) + slope_gain (G - mean), the disparity grows by -slope_gain / gain.
+		// L - mean = gain (R - mean) - step (G - mean). The slope is the left image's, which no interpolation
+		// touches: the right one's noise would not cancel against its own slope, and pull every disparity of
+		// a flat floor the same way.
 		const double det = e.rr * e.gg - e.rg * e.rg;
 		if (!(det > 1e-9 * e.rr * e.gg) || !(e.ll > 0)) return {};
 		const double gain = (e.lr * e.gg - e.lg * e.rg) / det;
-		const double slope_gain = (e.lg * e.rr - e.lr * e.rg) / det;
+		const double step = std::clamp((e.lr * e.rg - e.lg * e.rr) / det, -1.0, 1.0);
 		if (!(gain > 0)) return {};
-		const double step = std::clamp(-slope_gain / gain, -1.0, 1.0);
 		d += step;
 		if (std::abs(d - start) > reach) return {};
 		if (std::abs(step) > CONVERGED) continue;
-		const double residual = std::max(0.0, e.ll - gain * e.lr - slope_gain * e.lg);
-		const double gradient = gain * gain * (e.gg - e.rg * e.rg / e.rr);
+		const double residual = std::max(0.0, e.ll - gain * e.lr + step * e.lg);
+		const double gradient = e.gg - e.rg * e.rg / e.rr;
 		const double sigma = std::sqrt(residual / (e.n - 3) * CORRELATED_PIXELS / gradient);
 		return TPatchAlignment{d, sigma, e.lr / std::sqrt(e.ll * e.rr)};
 	}

@@ -25,7 +25,7 @@ struct TFeatureOptions
 	double min_ncc{0.7};
 	bool average_left_right{true};
 
-	double sigma_uv{0.12}, sigma_uv_growth{1.3};
+	double sigma_uv{0}, sigma_uv_growth{0};	 ///< 0: as measured for the detector
 	double sigma_disparity{0.015}, disparity_noise_scale{0.65};
 
 	template <class VISITOR>
@@ -56,13 +56,19 @@ struct TFeatureOptions
 			"min_ncc", min_ncc, between(-1, 1), "Least correlation of the aligned left and right patches");
 		v.flag("average_left_right", average_left_right, "Position = mean of the left and right detections");
 		v.number(
-			"sigma_uv", sigma_uv, above(0), "Position noise across views [px] of a finest-scale key point");
-		v.number("sigma_uv_growth", sigma_uv_growth, atLeast(1), "Growth of that noise an octave");
+			"sigma_uv", sigma_uv, atLeast(0),
+			"Position noise across views [px] of a finest-scale key point; 0 = as measured for the detector");
+		v.number(
+			"sigma_uv_growth", sigma_uv_growth, atLeast(0),
+			"Growth of that noise an octave; 0 = as measured for the detector");
 		v.number("sigma_disparity", sigma_disparity, above(0), "Floor of the disparity noise [px]");
 		v.number(
 			"disparity_noise_scale", disparity_noise_scale, above(0),
 			"Disparity noise over what the patch's own residual and gradient predict");
 	}
+
+	/** Position noise of a key point [px], the same in u and v. */
+	double positionSigma(double octave) const;
 
 	/** Throws CError on options that contradict each other. */
 	void check() const;

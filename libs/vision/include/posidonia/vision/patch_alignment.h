@@ -29,6 +29,6 @@ class CPatchAligner
 	struct TNormalEquations;
 	bool linearise(int x, int y, double disparity, int radius, TNormalEquations& n) const;
 
-	cv::Mat m_left, m_right;  // CV_32F, smoothed
+	cv::Mat m_left, m_left_slope, m_right;	// CV_32F, smoothed
 };
 }  // namespace posidonia

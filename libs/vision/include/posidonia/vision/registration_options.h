@@ -27,9 +27,7 @@ struct TRegistrationOptions
 	{
 		v.number("match_ratio", match_ratio, between(0.1, 1), "Ratio test between key frames; 1 = off");
 		v.integer("min_matches", min_matches, atLeast(6), "Fewest reciprocal matches");
-		v.choice(
-			"ransac", ransac, {"USAC_MSAC", "USAC_MAGSAC", "THREE_POINTS"},
-			"PnP RANSAC, or RANSAC on 3D-3D triples");
+		v.choice("ransac", ransac, {"USAC_MSAC", "USAC_MAGSAC"}, "Score of the PnP RANSAC");
 		v.number("ransac_threshold", ransac_threshold, above(0), "RANSAC inlier threshold [px]");
 		v.number("ransac_confidence", ransac_confidence, between(0.5, 0.999999), "RANSAC confidence");
 		v.integer("ransac_iterations", ransac_iterations, between(1, 1000000), "RANSAC iterations at most");
