@@ -61,8 +61,8 @@ class CNavigationEKF : public mrpt::bayes::CKalmanFilterCapable<kNavigationSize,
 	void OnNormalizeStateVector() override;
 
    private:
-	friend class CNavigationEkfProbe;  // the tests' eye on the virtuals
-	using MapNav = Eigen::Map<Eigen::Matrix<double, kNavigationSize, kNavigationSize, Eigen::RowMajor>>;
+	/** Symmetric, so its storage order does not matter. */
+	using MapNav = Eigen::Map<MatrixNav>;
 	MapNav P() { return MapNav(m_pkk.data()); }
 	void fuse(const CMeasurement& measurement, bool gated);
 	void resetCovariance(const Eigen::Vector3d& attitude_error, int rows);
