@@ -15,7 +15,7 @@ struct TMeasuredNoise
 };
 TMeasuredNoise measuredNoise(const std::string& detector)
 {
-	if (detector == "SIFT") return {0.07, 1.47};
+	if (detector == "SIFT") return {0.065, 1.42};
 	if (detector == "ORB") return {0.33, 1.8};	// no sub-pixel position: uniform over a pixel of its level
 	return {0.12, 1.5};
 }

@@ -11,18 +11,19 @@ namespace posidonia
 {
 namespace
 {
-/** Detectors give up to this many times the wanted number, for the grid to choose from. */
-constexpr int GRID_CHOICE = 2;
+/** Detectors give up to this many times the wanted number (each costs its descriptor), for the grid to choose
+ * from. */
+constexpr double GRID_CHOICE = 1.5;
 
 cv::Ptr<cv::Feature2D> makeDetector(const TFeatureOptions& o)
 {
-	if (o.detector == "SIFT") return cv::SIFT::create(GRID_CHOICE * o.max_features, 3, o.sift_contrast);
+	const int offered = static_cast<int>(GRID_CHOICE * o.max_features);
+	if (o.detector == "SIFT") return cv::SIFT::create(offered, 3, o.sift_contrast);
 	if (o.detector == "AKAZE")
 		return cv::AKAZE::create(
 			cv::AKAZE::DESCRIPTOR_MLDB, 0, 3, static_cast<float>(o.akaze_threshold), 4, 4,
 			cv::KAZE::DIFF_PM_G2);
-	return cv::ORB::create(
-		GRID_CHOICE * o.max_features, 1.2f, 8, 15, 0, 2, cv::ORB::HARRIS_SCORE, 31, o.orb_fast_threshold);
+	return cv::ORB::create(offered, 1.2f, 8, 15, 0, 2, cv::ORB::HARRIS_SCORE, 31, o.orb_fast_threshold);
 }
 
 /** Size [px] of the detector's finest key points. */

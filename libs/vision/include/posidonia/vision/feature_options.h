@@ -10,7 +10,7 @@ namespace posidonia
 struct TFeatureOptions
 {
 	std::string detector{"SIFT"};
-	int max_features{1000};
+	int max_features{800};
 	int grid_columns{8}, grid_rows{6};
 	double sift_contrast{0.02};
 	int orb_fast_threshold{7};
