@@ -25,6 +25,7 @@ bool CSimApp::initialize(int argc, const char* const* argv)
 		std::cout << ini.dump();
 		return false;
 	}
+	params.simulation.floor.image = line.besideConfig(params.simulation.floor.image);
 	m_verbosity = line.verbosity();
 	const std::string folder = line.outputDir().empty() ? "data" : line.outputDir();
 	m_prefix = folder + "/" + (output_name.isSet() ? output_name.getValue() : line.configName());

@@ -73,6 +73,13 @@ std::string CCommandLine::configName() const
 	return m_config.isSet() ? std::filesystem::path(m_config.getValue()).stem().string() : "defaults";
 }
 
+std::string CCommandLine::besideConfig(const std::string& path) const
+{
+	if (std::filesystem::exists(path) || !m_config.isSet()) return path;
+	const auto beside = std::filesystem::path(m_config.getValue()).parent_path() / path;
+	return std::filesystem::exists(beside) ? beside.string() : path;
+}
+
 namespace
 {
 /** MRPT's exceptions come with a call stack; a user needs the message. */

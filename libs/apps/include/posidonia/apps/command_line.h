@@ -22,6 +22,8 @@ class CCommandLine
 	/** The ini of -c (empty defaults without) with every --set applied. */
 	CIniFile ini() const;
 	std::string configName() const;	 ///< "paper-exp1" of "ini/paper-exp1.ini"; "defaults" without -c
+	/** A file that the ini names: as it stands, or relative to the ini's folder. */
+	std::string besideConfig(const std::string& path) const;
 	std::string outputDir() const { return m_output.getValue(); }
 	int verbosity() const { return m_verbosity.getValue(); }
 	bool wantsConfigDump() const { return m_dump.getValue(); }
