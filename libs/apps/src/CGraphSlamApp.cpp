@@ -55,15 +55,27 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 	return true;
 }
 
+namespace
+{
+/** Keeps MRPT's timer from printing its table when it dies, in an error too: the times are in timings.csv. */
+struct TSilencedAtEnd
+{
+	mrpt::system::CTimeLogger& timer;
+	~TSilencedAtEnd() { timer.disable(); }
+};
+}  // namespace
+
 void CGraphSlamApp::run()
 {
 	m_results = {};
 	m_results.folder = m_folder->path();
 	m_folder->write("config.ini", m_config_dump);
+	writeSensors(m_folder->file("sensors.ini"), m_sensors);
 	CRawlogReader reader(m_rawlog);
 	CStereoSlam slam(
 		params.slam, m_sensors, params.makeOdometry(m_sensors), std::make_unique<CStereoImageLoader>(m_rawlog),
 		m_folder->file("config.ini"));
+	const TSilencedAtEnd silenced{slam.timer()};
 	replay(slam, reader);
 	collect(slam, reader);
 	writeResults(slam);
@@ -145,9 +157,8 @@ void CGraphSlamApp::score(const CStereoSlam&)
 void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& reader)
 {
 	m_folder->log(versionText(), m_verbosity - 1);
-	if (!reader.damage().empty()) m_folder->log("warning: " + reader.path() + ": " + reader.damage(), m_verbosity + 1);
-	if (reader.actionsLeftAside() > 0)
-		m_folder->log(mrpt::format("%zu robot actions left aside", reader.actionsLeftAside()), m_verbosity);
+	const std::string losses = replayLosses(reader);
+	if (!losses.empty()) m_folder->log(losses, m_verbosity + 1);  // even when quiet
 	m_folder->log(
 		mrpt::format(
 			"%d nodes, %d sequential and %d ROI edges; chi2 %.1f (composed from the root: %.3g)", m_results.nodes,

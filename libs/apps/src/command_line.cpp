@@ -30,11 +30,13 @@ class CVersionOutput : public TCLAP::StdOutput
 };
 }  // namespace
 
-CCommandLine::CCommandLine(const std::string& app, const std::string& description)
+CCommandLine::CCommandLine(
+	const std::string& app, const std::string& description, const std::string& output_text,
+	const std::string& output_type)
 	: m_app(app),
 	  m_cmd(description + "\nExit status: 0 done, 1 failed, 2 wrong command line.", ' ', kVersion),
 	  m_config("c", "config", "Ini file; without it every key has its default", false, "", "FILE.ini", m_cmd),
-	  m_output("o", "output-dir", "Folder for the results", false, "", "DIR", m_cmd),
+	  m_output("o", "output-dir", output_text, false, "", output_type, m_cmd),
 	  m_set("", "set", "Override one key; may be repeated", false, "Section.key=value", m_cmd),
 	  m_verbosity("v", "verbosity", "0 quiet, 1 summary (default), 2 details", false, 1, "0|1|2", m_cmd),
 	  m_dump("", "dump-config", "Print the configuration as used, with every key's meaning, and stop", m_cmd)
@@ -61,9 +63,10 @@ bool CCommandLine::parse(int argc, const char* const* argv)
 	return true;
 }
 
-CIniFile CCommandLine::ini() const
+CIniFile CCommandLine::ini(const std::string& fallback) const
 {
-	CIniFile ini = m_config.isSet() ? CIniFile::fromFile(m_config.getValue()) : CIniFile::fromText("", "defaults");
+	const std::string path = m_config.isSet() ? m_config.getValue() : std::filesystem::exists(fallback) ? fallback : "";
+	CIniFile ini = path.empty() && !m_config.isSet() ? CIniFile::fromText("", "defaults") : CIniFile::fromFile(path);
 	for (const auto& assignment : m_set.getValue()) ini.set(assignment);
 	return ini;
 }

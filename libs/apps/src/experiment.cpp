@@ -24,14 +24,15 @@ TExperiment TExperiment::load(CIniFile& ini, TSensorSuite& sensors)
 	return e;
 }
 
+std::unique_ptr<COdometrySource> TExperiment::makeCleanOdometry(const TSensorSuite& sensors) const
+{
+	if (odometry.source == "recorded") return std::make_unique<CRecordedOdometry>(recorded);
+	return std::make_unique<CEkfOdometry>(ekf, initial_pose, sensors, simulation.world);
+}
+
 std::unique_ptr<COdometrySource> TExperiment::makeOdometry(const TSensorSuite& sensors) const
 {
-	std::unique_ptr<COdometrySource> source;
-	if (odometry.source == "recorded")
-		source = std::make_unique<CRecordedOdometry>(recorded);
-	else
-		source = std::make_unique<CEkfOdometry>(ekf, initial_pose, sensors, simulation.world);
-	return std::make_unique<COdometryCorruptor>(std::move(source), corruption);
+	return std::make_unique<COdometryCorruptor>(makeCleanOdometry(sensors), corruption);
 }
 
 namespace

@@ -59,6 +59,15 @@ std::string scoreSummary(const TMetrics& metrics)
 	return text;
 }
 
+std::string replayLosses(const CRawlogReader& reader)
+{
+	std::string text;
+	if (!reader.damage().empty()) text = "warning: " + reader.damage();
+	if (reader.actionsLeftAside() > 0)
+		text += (text.empty() ? "" : "\n") + mrpt::format("%zu robot actions left aside", reader.actionsLeftAside());
+	return text;
+}
+
 std::string truthFor(const std::string& rawlog, const std::string& given)
 {
 	if (!given.empty())

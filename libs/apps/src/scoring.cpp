@@ -11,9 +11,9 @@ namespace posidonia
 {
 TScoring scoringOf(const TExperiment& experiment, const TSensorSuite& sensors)
 {
-	TScoring scoring{experiment.evaluation, experiment.loop_evaluation, {}, experiment.report.paper_experiment};
-	if (!sensors.stereo.empty())
-	{
+	TScoring scoring{
+		experiment.evaluation, experiment.loop_evaluation, {}, experiment.report.paper_experiment};
+	if (!sensors.stereo.empty()) {
 		const TStereoSpec& rig = sensors.stereo.begin()->second;
 		scoring.camera = {rig.camera, rig.T_body_sensor(), experiment.simulation.floor.depth};
 	}
@@ -27,9 +27,9 @@ TTrajectory atNodes(const TTrajectory& trajectory, const TTrajectory& nodes)
 {
 	TTrajectory picked;
 	size_t k = 0;
-	for (const auto& node : nodes)
-	{
-		while (k < trajectory.size() && trajectory[k].stamp < node.stamp) k++;
+	for (const auto& node : nodes) {
+		while (k < trajectory.size() && trajectory[k].stamp < node.stamp)
+			k++;
 		if (k < trajectory.size()) picked.push_back(trajectory[k]);
 	}
 	return picked;
@@ -38,44 +38,74 @@ TTrajectory atNodes(const TTrajectory& trajectory, const TTrajectory& nodes)
 std::map<std::uint64_t, Eigen::Isometry3d> trueNodePoses(const TAssociation& nodes)
 {
 	std::map<std::uint64_t, Eigen::Isometry3d> poses;
-	for (const auto& pair : nodes) poses[pair.index] = pair.T_truth_body;
+	for (const auto& pair : nodes)
+		poses[pair.index] = pair.T_truth_body;
 	return poses;
 }
 
-void append(TMetrics& rows, const TMetrics& more) { rows.insert(rows.end(), more.begin(), more.end()); }
-
-std::string tableText(int experiment, const TRunEvaluation& odom, const TRunEvaluation& nodes, const TRunEvaluation& slam)
+std::string tableText(int experiment, const TRunScores& scores)
 {
 	if (experiment == 0) return {};
 	const auto mean = [](const TRunEvaluation& e) { return e.absolute[0].translation.mean; };
+	const TRunEvaluation &nodes = *scores.find("nodes"), &odom = *scores.find("odom"),
+						 &slam = *scores.find("slam");
 	return paperTable(
 		experiment, {{"Ground truth", nodes.truth_length, std::numeric_limits<double>::quiet_NaN()},
-						{"Odometry", odom.length, mean(odom)},
-						{"Posidonia (nodes)", nodes.length, mean(nodes)},
-						{"Posidonia (causal)", slam.length, mean(slam)}});
+					 {"Odometry", odom.length, mean(odom)},
+					 {"Posidonia (nodes)", nodes.length, mean(nodes)},
+					 {"Posidonia (causal)", slam.length, mean(slam)}});
 }
 }  // namespace
 
+const TRunEvaluation* TRunScores::find(const std::string& name) const
+{
+	for (const auto& t : trajectories)
+		if (t.name == name) return &t.evaluation;
+	return nullptr;
+}
+
+TMetrics TRunScores::metrics() const
+{
+	TMetrics rows;
+	const auto append = [&](const TMetrics& more) { rows.insert(rows.end(), more.begin(), more.end()); };
+	for (const auto& t : trajectories)
+		append(t.evaluation.metrics);
+	if (loops) append(loopMetrics("loops", *loops));
+	return rows;
+}
+
+TRunScores evaluateTrajectories(
+	const TScoring& scoring, const TRunTrajectories& run, const std::vector<TLoopRow>* loops,
+	const TTrajectory& truth)
+{
+	TRunScores scores;
+	const auto evaluate = [&](const char* name, const TTrajectory& t) {
+		if (!t.empty())
+			scores.trajectories.push_back({name, evaluateRun(name, t, truth, scoring.evaluation)});
+	};
+	evaluate("nodes", run.nodes);
+	evaluate("slam", run.slam);
+	evaluate("odom", run.nodes.empty() ? run.odom : atNodes(run.odom, run.nodes));
+	evaluate("ekf", run.ekf);
+	if (const auto* nodes = scores.find("nodes"); nodes && loops)
+		scores.loops = evaluateLoops(*loops, trueNodePoses(nodes->poses), scoring.camera, scoring.loops);
+	return scores;
+}
+
 TScore scoreRun(
-	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv, const std::string& truth_file,
-	const CRunFolder& folder)
+	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv,
+	const std::string& truth_file, const CRunFolder& folder)
 {
 	const TTrajectory truth = readTum(truth_file);
-	const auto evaluate = [&](const char* prefix, const TTrajectory& t) {
-		return evaluateRun(prefix, t, truth, scoring.evaluation);
-	};
-	const TRunEvaluation nodes = evaluate("nodes", run.nodes), slam = evaluate("slam", run.slam),
-						 odom = evaluate("odom", atNodes(run.odom, run.nodes)), ekf = evaluate("ekf", run.ekf);
-	TScore score;
-	for (const auto* e : {&nodes, &slam, &odom, &ekf}) append(score.metrics, e->metrics);
 	const auto loops = readLoops(loops_csv);
-	append(score.metrics,
-		loopMetrics("loops", evaluateLoops(loops, trueNodePoses(nodes.poses), scoring.camera, scoring.loops)));
-
-	const std::string title = scoring.paper_experiment ? "Experiment " + std::to_string(scoring.paper_experiment) : "Survey";
-	folder.write("trajectories.svg", plotTrajectories({title, run.odom, truth, run.nodes, loopSegments(loops, run.nodes)}));
-	folder.write("error.svg", plotErrors({title, odom.absolute[0].poses, nodes.absolute[0].poses}));
-	score.text = tableText(scoring.paper_experiment, odom, nodes, slam);
-	return score;
+	const TRunScores scores = evaluateTrajectories(scoring, run, &loops, truth);
+	const auto errors = [&](const char* name) { return scores.find(name)->absolute[0].poses; };
+	const std::string title =
+		scoring.paper_experiment ? "Experiment " + std::to_string(scoring.paper_experiment) : "Survey";
+	folder.write(
+		"trajectories.svg",
+		plotTrajectories({title, run.odom, truth, run.nodes, loopSegments(loops, run.nodes)}));
+	folder.write("error.svg", plotErrors({title, errors("odom"), errors("nodes")}));
+	return {scores.metrics(), tableText(scoring.paper_experiment, scores)};
 }
 }  // namespace posidonia

@@ -12,15 +12,18 @@ namespace posidonia
 class CCommandLine
 {
    public:
-	CCommandLine(const std::string& app, const std::string& description);
+	/** `output_text`: what -o names, for --help. */
+	CCommandLine(
+		const std::string& app, const std::string& description,
+		const std::string& output_text = "Folder for the results", const std::string& output_type = "DIR");
 
 	TCLAP::CmdLine& cmd() { return m_cmd; }
 
 	/** False when --help or --version was asked for and answered. Throws CUsageError. */
 	bool parse(int argc, const char* const* argv);
 
-	/** The ini of -c (empty defaults without) with every --set applied. */
-	CIniFile ini() const;
+	/** The ini of -c (without it `fallback` where given and existing, else empty: all defaults) with every --set. */
+	CIniFile ini(const std::string& fallback = "") const;
 	std::string configName() const;	 ///< "paper-exp1" of "ini/paper-exp1.ini"; "defaults" without -c
 	/** A file that the ini names: as it stands, or relative to the ini's folder. */
 	std::string besideConfig(const std::string& path) const;

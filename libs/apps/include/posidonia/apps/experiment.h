@@ -54,7 +54,9 @@ struct TExperiment
 	/** Loads every section and overrides `sensors` by the sections [Sensor.<label>]. Throws CError. */
 	static TExperiment load(CIniFile& ini, TSensorSuite& sensors);
 
-	/** The odometry that the ini asks for, corrupted if it asks for that. */
+	/** The odometry that the ini asks for, as it is. */
+	std::unique_ptr<COdometrySource> makeCleanOdometry(const TSensorSuite& sensors) const;
+	/** The same behind the paper's drift corruptor (which does nothing when its drifts are 0). */
 	std::unique_ptr<COdometrySource> makeOdometry(const TSensorSuite& sensors) const;
 };
 

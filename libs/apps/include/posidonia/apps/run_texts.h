@@ -3,6 +3,7 @@
 #include <mrpt/system/CTimeLogger.h>
 #include <posidonia/eval/metrics.h>
 #include <posidonia/graphslam/slam_map.h>
+#include <posidonia/obs/rawlog_reader.h>
 
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ std::string candidateCounts(const std::vector<TCandidateRow>& rows);
 
 /** The few numbers of a score that a terminal needs. */
 std::string scoreSummary(const TMetrics& metrics);
+
+/** What a replay lost or left aside, in words; empty when nothing. */
+std::string replayLosses(const CRawlogReader& reader);
 
 /** The truth to score by: `given` (must exist), else <name>.gt.tum beside the rawlog, else empty. */
 std::string truthFor(const std::string& rawlog, const std::string& given);

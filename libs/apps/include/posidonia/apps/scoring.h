@@ -5,14 +5,16 @@
 #include <posidonia/eval/metrics.h>
 #include <posidonia/geometry/trajectory.h>
 
+#include <optional>
+
 namespace posidonia
 {
 /** The trajectories of a run folder, T_map_body. */
 struct TRunTrajectories
 {
-	TTrajectory ekf;  ///< ekf.tum: the navigation filter
-	TTrajectory odom;  ///< odom.tum: what the graph gets, after the corruptor
-	TTrajectory slam;  ///< slam.tum: handed out at each stereo pair, causal
+	TTrajectory ekf;	///< ekf.tum: the navigation filter
+	TTrajectory odom;	///< odom.tum: what the graph gets, after the corruptor
+	TTrajectory slam;	///< slam.tum: handed out at each stereo pair, causal
 	TTrajectory nodes;	///< nodes.tum: after the last optimisation
 };
 
@@ -26,15 +28,39 @@ struct TScoring
 };
 TScoring scoringOf(const TExperiment& experiment, const TSensorSuite& sensors);
 
-/** Scores a run against the truth file: metric rows of every trajectory and of the loops of `loops_csv`, and writes the
- * pictures of the paper's figure 5 (trajectories.svg, error.svg) into `folder`. Returns the rows and, for the paper's
- * experiments, its table with ours. */
+/** How the trajectories of a run compare with the truth, and its loops. */
+struct TRunScores
+{
+	struct TNamed
+	{
+		std::string name;
+		TRunEvaluation evaluation;
+	};
+	std::vector<TNamed> trajectories;  ///< Those that are there, in the order nodes, slam, odom, ekf
+	std::optional<TLoopEvaluation> loops;
+
+	/** The evaluation of `name`; null when it is not there. */
+	const TRunEvaluation* find(const std::string& name) const;
+	/** Every row: "nodes.ate.unaligned.mean" ... "loops.accepted" ... */
+	TMetrics metrics() const;
+};
+
+/** Empty trajectories are left out; odom counts at the nodes' stamps where there are nodes, so that both have
+ * the same poses. `loops`: rows of loops.csv, judged where there are nodes. Throws CError when nothing can be
+ * associated. */
+TRunScores evaluateTrajectories(
+	const TScoring& scoring, const TRunTrajectories& run, const std::vector<TLoopRow>* loops,
+	const TTrajectory& truth);
+
+/** Scores a run against the truth file: metric rows of every trajectory and of the loops of `loops_csv`, and
+ * writes the pictures of the paper's figure 5 (trajectories.svg, error.svg) into `folder`. Returns the rows
+ * and, for the paper's experiments, its table with ours. */
 struct TScore
 {
 	TMetrics metrics;
 	std::string text;
 };
 TScore scoreRun(
-	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv, const std::string& truth_file,
-	const CRunFolder& folder);
+	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv,
+	const std::string& truth_file, const CRunFolder& folder);
 }  // namespace posidonia

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <posidonia/apps/command_line.h>
+#include <posidonia/apps/experiment.h>
+#include <posidonia/apps/run_folder.h>
+#include <posidonia/obs/rawlog_reader.h>
+#include <posidonia/obs/rawlog_writer.h>
+
+#include <memory>
+
+namespace posidonia
+{
+/** auv-ekf: the navigation filter over a rawlog, without graph and without the drift corruptor. Writes
+ * ekf.tum and a rawlog with the filter's poses among the observations, which replays with [Odometry] source =
+ * recorded. */
+class CEkfApp
+{
+   public:
+	static constexpr const char* name = "auv-ekf";
+	/** sensorLabel of the poses in the new rawlog. */
+	static constexpr const char* pose_label = "EKF";
+
+	/** False when --help, --version or --dump-config was answered. Throws CError, CUsageError. */
+	bool initialize(int argc, const char* const* argv);
+	void run();
+
+	/** What came out, in memory; the run folder holds the same. */
+	struct TResults
+	{
+		TTrajectory ekf;	 ///< T_odom_body
+		TPoseEstimate last;	 ///< With the way since the start
+		size_t observations{0};
+		TMetrics metrics;
+		std::string folder, rawlog;
+	};
+	const TResults& results() const { return m_results; }
+	TExperiment params;
+
+   private:
+	void replay(COdometrySource& odometry, CRawlogReader& reader, CRawlogWriter& writer);
+	/** Is it time for the next pose? */
+	bool isDue(const COdometrySource& odometry) const;
+	void writePose(const COdometrySource& odometry, CRawlogWriter& writer);
+	void linkImages();
+	/** Rows "navigation....": way, duration, sigmas of the last pose. */
+	void summarize(const TPoseEstimate& last);
+	void score();
+	void logSummary(const COdometrySource& odometry, const CRawlogReader& reader, double seconds);
+
+	std::string m_rawlog, m_truth, m_config_dump;
+	TSensorSuite m_log_sensors;	 ///< As they stand beside the rawlog
+	TSensorSuite m_sensors;		 ///< With the ini's changes
+	double m_rate{10};			 ///< [Hz]
+	std::unique_ptr<CRunFolder> m_folder;
+	int m_verbosity{1};
+	bool m_has_pictures{false};	 ///< Does any observation refer to a picture file?
+	TResults m_results;
+};
+}  // namespace posidonia
