@@ -13,28 +13,28 @@ namespace
 {
 constexpr double kUnit = 32;
 
-/** White noise of standard deviation `sigma` [grey levels]: sums of four hashed bytes, nearly Gaussian. */
+/** Four bytes of hash to a number of mean 0 and standard deviation 2 * 73.9, nearly Gaussian. */
+int bellShaped(uint64_t bits)
+{
+	return static_cast<int>((bits & 255) + (bits >> 8 & 255) + (bits >> 16 & 255) + (bits >> 24 & 255)) - 510;
+}
+
+/** Adds white noise of standard deviation `sigma` [grey levels]. */
 void addWhite(cv::Mat& image, double sigma, uint64_t seed)
 {
-	const double byte_sigma = std::sqrt((256.0 * 256.0 - 1) / 12);
-	const int factor = static_cast<int>(std::lround(sigma * kUnit / (2 * byte_sigma) * 4096));
-	cv::parallel_for_(cv::Range(0, image.rows), [&](const cv::Range& rows) {
-		for (int y = rows.start; y < rows.end; y++)
+	const double bell_sigma = 2 * std::sqrt((256.0 * 256.0 - 1) / 12);
+	const int factor = static_cast<int>(std::lround(sigma * kUnit / bell_sigma * 4096));
+	for (int y = 0; y < image.rows; y++)
+	{
+		int16_t* row = image.ptr<int16_t>(y);
+		const uint64_t row_seed = mixed(seed, static_cast<uint64_t>(y));
+		uint64_t hash = 0;
+		for (int x = 0; x < image.cols; x++)
 		{
-			int16_t* row = image.ptr<int16_t>(y);
-			const uint64_t row_seed = mixed(seed, static_cast<uint64_t>(y));
-			for (int x = 0; x < image.cols; x += 2)
-			{
-				const uint64_t h = mixed(row_seed + static_cast<uint64_t>(x));
-				const auto sum = [](uint64_t bits) {
-					return static_cast<int>(
-						(bits & 255) + (bits >> 8 & 255) + (bits >> 16 & 255) + (bits >> 24 & 255)) - 510;
-				};
-				row[x] = cv::saturate_cast<int16_t>(row[x] + (sum(h) * factor >> 12));
-				if (x + 1 < image.cols) row[x + 1] = cv::saturate_cast<int16_t>(row[x + 1] + (sum(h >> 32) * factor >> 12));
-			}
+			hash = x % 2 == 0 ? mixed(row_seed + static_cast<uint64_t>(x)) : hash >> 32;
+			row[x] = cv::saturate_cast<int16_t>(row[x] + (bellShaped(hash) * factor >> 12));
 		}
-	});
+	}
 }
 
 /** Sum of octaves of zero mean; sigmas[n] is that of the white noise whose pixels are 2^n wide. CV_16SC1. */
@@ -73,44 +73,106 @@ std::vector<double> bandSigmas(const cv::Mat& picture, size_t n_octaves)
 	return sigmas;
 }
 
-/** Seconds-nearest distances of a jittered grid of stones (Worley 1996): shade of the nearest stone and how far the
- * point is from the crack between the nearest two, 0 to 1. */
-struct TStone
+/** Stones about a jittered grid of unit cells (Worley 1996), one centre a cell. */
+class CStoneField
 {
-	double shade, crack;
+   public:
+	/** Cells 0 to columns - 1, 0 to rows - 1, and some around them. */
+	CStoneField(int columns, int rows, uint64_t seed) : m_columns(columns + 2 * kMargin), m_rows(rows + 2 * kMargin)
+	{
+		for (int j = 0; j < m_rows; j++)
+			for (int i = 0; i < m_columns; i++)
+			{
+				const uint64_t h = mixed(seed, static_cast<uint64_t>(i), static_cast<uint64_t>(j));
+				m_centres.push_back(
+					{static_cast<float>(i + unitInterval(h)), static_cast<float>(j + unitInterval(mixed(h))),
+					 static_cast<float>(2 * unitInterval(mixed(h, 1)) - 1)});
+			}
+	}
+	/** Shade, -1 to 1, of the stone at (x, y), and how far the crack towards the next one is, in cells. */
+	struct TPoint
+	{
+		float shade, crack;
+	};
+	TPoint at(float x, float y) const
+	{
+		x = std::min(std::max(x + kMargin, 1.0f), static_cast<float>(m_columns) - 1.5f);
+		y = std::min(std::max(y + kMargin, 1.0f), static_cast<float>(m_rows) - 1.5f);
+		float nearest = 1e9f, second = 1e9f, shade = 0;
+		const TCentre* row = &m_centres[static_cast<size_t>((static_cast<int>(y) - 1) * m_columns + static_cast<int>(x) - 1)];
+		for (int j = 0; j < 3; j++, row += m_columns)
+			for (int i = 0; i < 3; i++)
+			{
+				const float dx = row[i].x - x, dy = row[i].y - y, d = dx * dx + dy * dy;
+				second = std::min(second, std::max(nearest, d));
+				shade = d < nearest ? row[i].shade : shade;
+				nearest = std::min(nearest, d);
+			}
+		return {shade, std::sqrt(second) - std::sqrt(nearest)};
+	}
+
+   private:
+	struct TCentre
+	{
+		float x, y, shade;
+	};
+	static constexpr int kMargin = 4;
+	int m_columns, m_rows;
+	std::vector<TCentre> m_centres;
 };
-TStone stoneAt(double x, double y, uint64_t seed)
+
+/** Where stones bend: two independent fields, CV_16SC1. */
+struct TBend
 {
-	const int64_t cx = static_cast<int64_t>(std::floor(x)), cy = static_cast<int64_t>(std::floor(y));
-	double nearest = 1e9, second = 1e9;
-	uint64_t nearest_hash = 0;
-	for (int64_t j = cy - 1; j <= cy + 1; j++)
-		for (int64_t i = cx - 1; i <= cx + 1; i++)
+	cv::Mat x, y;
+};
+
+/** Stones of `width` pixels with crooked edges. */
+struct TStones
+{
+	double width, shade, crack;	 ///< [px], contrast between stones and darkness of the cracks [grey levels]
+};
+void addStones(cv::Mat& image, const TBend& bend, const TStones& stones, uint64_t seed)
+{
+	const float cell = static_cast<float>(1 / stones.width), bent = static_cast<float>(0.3 / kUnit / stones.width);
+	const CStoneField field(static_cast<int>(image.cols / stones.width) + 1, static_cast<int>(image.rows / stones.width) + 1, seed);
+	const float shade = static_cast<float>(kUnit * stones.shade), depth = static_cast<float>(kUnit * stones.crack);
+	for (int y = 0; y < image.rows; y++)
+		for (int x = 0; x < image.cols; x++)
 		{
-			const uint64_t h = mixed(seed + static_cast<uint64_t>(i) * 0x9E3779B1ull + static_cast<uint64_t>(j) * 0x85EBCA77C2B2AE63ull);
-			const double dx = static_cast<double>(i) + static_cast<double>(h & 0xFFFF) / 65536 - x;
-			const double dy = static_cast<double>(j) + static_cast<double>(h >> 16 & 0xFFFF) / 65536 - y;
-			const double d = dx * dx + dy * dy;
-			if (d < nearest) second = nearest, nearest = d, nearest_hash = h;
-			else if (d < second) second = d;
+			const auto s = field.at(
+				static_cast<float>(x) * cell + bent * bend.x.at<int16_t>(y, x),
+				static_cast<float>(y) * cell + bent * bend.y.at<int16_t>(y, x));
+			const float crack = std::max(0.0f, 1 - 6 * s.crack);
+			int16_t& out = image.at<int16_t>(y, x);
+			out = cv::saturate_cast<int16_t>(static_cast<float>(out) + shade * s.shade - depth * crack * crack);
 		}
-	return {static_cast<double>(nearest_hash >> 32 & 0xFFFF) / 32768 - 1, std::sqrt(second) - std::sqrt(nearest)};
 }
 
-/** Adds stones of `size_px` pixels, shades of +-`shade` and dark cracks of `depth` grey levels. */
-void addStones(cv::Mat& image, const cv::Mat& warp, double size_px, double shade, double depth, uint64_t seed)
+/** One soft dot in each cell of a grid. */
+struct TDots
 {
-	cv::parallel_for_(cv::Range(0, image.rows), [&](const cv::Range& rows) {
-		for (int y = rows.start; y < rows.end; y++)
-			for (int x = 0; x < image.cols; x++)
-			{
-				const double bend = warp.at<int16_t>(y, x) / kUnit * 0.008;	 // crooked edges
-				const TStone s = stoneAt(x / size_px + bend, y / size_px - bend, seed);
-				const double crack = std::max(0.0, 1 - s.crack * 5);
-				image.at<int16_t>(y, x) = cv::saturate_cast<int16_t>(
-					image.at<int16_t>(y, x) + kUnit * (shade * s.shade - depth * crack * crack));
-			}
-	});
+	double spacing, radius, contrast;  ///< [px], [px] on average, largest [grey levels], bright or dark
+};
+void addDots(cv::Mat& image, const TDots& dots, uint64_t seed)
+{
+	for (int j = 0; j * dots.spacing < image.rows; j++)
+		for (int i = 0; i * dots.spacing < image.cols; i++)
+		{
+			const uint64_t h = mixed(seed, static_cast<uint64_t>(i), static_cast<uint64_t>(j));
+			const double cx = (i + unitInterval(h)) * dots.spacing, cy = (j + unitInterval(mixed(h))) * dots.spacing;
+			const double radius = dots.radius * (0.5 + unitInterval(mixed(h, 1)));
+			const double height = kUnit * dots.contrast * (2 * unitInterval(mixed(h, 2)) - 1);
+			const cv::Rect box(cv::Point2d(cx - 3 * radius, cy - 3 * radius), cv::Point2d(cx + 3 * radius, cy + 3 * radius));
+			const cv::Rect seen = box & cv::Rect({0, 0}, image.size());
+			for (int y = seen.y; y < seen.br().y; y++)
+				for (int x = seen.x; x < seen.br().x; x++)
+				{
+					const double d2 = ((x - cx) * (x - cx) + (y - cy) * (y - cy)) / (radius * radius);
+					int16_t& out = image.at<int16_t>(y, x);
+					out = cv::saturate_cast<int16_t>(out + height * std::exp(-d2));
+				}
+		}
 }
 
 /** Sigmas of octaves given by the width of their grains [m]; octaves finer than a pixel are left out. */
@@ -144,20 +206,24 @@ cv::Mat proceduralLike(const cv::Mat& sample, cv::Size size, uint64_t seed)
 
 cv::Mat proceduralSand(cv::Size size, double resolution, uint64_t seed)
 {
-	// Fine grain, faint patches; the octaves of 2 to 8 cm carry the few features there are.
-	const auto sigma = [](double grain) { return grain < 0.015 ? 3.5 : grain < 0.1 ? 5.0 : 3.0; };
-	return toGrey(octaves(size, sigmasByGrain(resolution, 3.0, sigma), seed), 128);
+	// Fine grain and faint patches; the few features are dots of shell and gravel.
+	const auto sigma = [](double grain) { return grain < 0.015 ? 4.0 : grain < 0.1 ? 6.0 : 3.0; };
+	cv::Mat sand = octaves(size, sigmasByGrain(resolution, 3.0, sigma), mixed(seed, 1));
+	addDots(sand, {0.17 / resolution, 0.014 / resolution, 85}, mixed(seed, 2));
+	return toGrey(sand, 128);
 }
 
 cv::Mat proceduralRock(cv::Size size, double resolution, uint64_t seed)
 {
 	// Stones at half the resolution (a crack is wider than that), fine grain on top at full resolution.
 	const cv::Size half((size.width + 1) / 2, (size.height + 1) / 2);
-	const auto coarse = [](double grain) { return grain < 0.03 ? 5.0 : 7.0; };
-	cv::Mat stones = octaves(half, sigmasByGrain(2 * resolution, 2.0, coarse), mixed(seed, 1));
-	const cv::Mat warp = stones.clone();
-	addStones(stones, warp, 0.55 / (2 * resolution), 30, 55, mixed(seed, 2));
-	addStones(stones, warp, 0.14 / (2 * resolution), 16, 28, mixed(seed, 3));
+	const double pixel = 2 * resolution;
+	const auto grain = sigmasByGrain(pixel, 2.0, [](double g) { return g < 0.03 ? 5.0 : 8.0; });
+	const auto smooth = sigmasByGrain(pixel, 0.7, [](double g) { return g < 0.06 ? 0.0 : 40.0; });
+	cv::Mat stones = octaves(half, grain, mixed(seed, 1));
+	const TBend bend{octaves(half, smooth, mixed(seed, 5)), octaves(half, smooth, mixed(seed, 6))};
+	addStones(stones, bend, {0.6 / pixel, 40, 70}, mixed(seed, 2));
+	addStones(stones, bend, {0.17 / pixel, 22, 45}, mixed(seed, 3));
 	cv::Mat full;
 	cv::pyrUp(stones, full, half * 2);
 	full = full(cv::Rect({0, 0}, size)).clone();

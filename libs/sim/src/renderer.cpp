@@ -29,17 +29,35 @@ double normalQuantile(double p)
 	return x;
 }
 
-/** Bilinear value of a level at (column, row); outside its border pixels go on. */
-inline float sampled(const uint8_t* pixels, size_t stride, int last_col, int last_row, double col, double row)
+/** Bilinear value of a level at (column, row), which the caller keeps inside. */
+inline float sampled(const cv::Mat& level, double col, double row)
 {
-	const double c = std::clamp(col, 0.0, last_col - 1e-3), r = std::clamp(row, 0.0, last_row - 1e-3);
-	const int i = static_cast<int>(c), j = static_cast<int>(r);
-	const float fx = static_cast<float>(c - i), fy = static_cast<float>(r - j);
-	const uint8_t* p = pixels + static_cast<size_t>(j) * stride + static_cast<size_t>(i);
+	const int i = static_cast<int>(col), j = static_cast<int>(row);
+	const float fx = static_cast<float>(col - i), fy = static_cast<float>(row - j);
+	const uint8_t *p = level.data + static_cast<size_t>(j) * level.step.p[0] + i, *q = p + level.step.p[0];
 	const float top = static_cast<float>(p[0]) + fx * static_cast<float>(p[1] - p[0]);
-	const float bottom = static_cast<float>(p[stride]) + fx * static_cast<float>(p[stride + 1] - p[stride]);
+	const float bottom = static_cast<float>(q[0]) + fx * static_cast<float>(q[1] - q[0]);
 	return top + fy * (bottom - top);
 }
+
+/** A point of level 0, in pixel areas (column + 0.5: areas, not centres, nest from level to level), on level n,
+ * kept inside: beyond the texture its border goes on. */
+struct TLevelView
+{
+	TLevelView(const cv::Mat& texture, size_t n)
+		: level(texture), scale(std::ldexp(1.0, -static_cast<int>(n))), last_col(texture.cols - 1.001),
+		  last_row(texture.rows - 1.001)
+	{
+	}
+	float at(double col, double row) const
+	{
+		return sampled(
+			level, std::min(std::max(col * scale - 0.5, 0.0), last_col),
+			std::min(std::max(row * scale - 0.5, 0.0), last_row));
+	}
+	const cv::Mat& level;
+	double scale, last_col, last_row;
+};
 }  // namespace
 
 /** One row of the picture: its viewing rays in map, origin + column * step, and where the camera is. */
@@ -49,6 +67,14 @@ struct CFloorRenderer::TRays
 	double height;	///< Of the camera over the floor [m]
 	Eigen::Vector2d foot;  ///< Texture pixel (level 0) straight below the camera
 	const float* length;  ///< Of each ray with unit depth
+};
+
+/** What is known of one row of the picture, by column. */
+struct CFloorRenderer::TRow
+{
+	explicit TRow(size_t width) : col(width), row(width), range(width), radiance(width) {}
+	std::vector<double> col, row;  ///< On level 0, + 0.5
+	std::vector<float> range, radiance;	 ///< [m], [grey levels]
 };
 
 /** Two neighbouring mip levels and the share of the coarser one. */
@@ -100,59 +126,60 @@ cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_se
 {
 	const Matrix3d& R = T_map_camera.linear();
 	const Vector3d centre = T_map_camera.translation();
-	TRays rays{{}, R.col(0) / m_camera.fx, m_depth - centre.z(), m_floor.pixelAt(centre.head<2>()), nullptr};
-	const TLevels levels = chooseLevels(std::max(rays.height, 1e-3));
+	// A camera in the floor sees what one a hair above it sees.
+	TRays rays{{}, R.col(0) / m_camera.fx, std::max(m_depth - centre.z(), 1e-3), m_floor.pixelAt(centre.head<2>()), nullptr};
+	const TLevels levels = chooseLevels(rays.height);
 	const size_t width = static_cast<size_t>(m_camera.width);
-	std::vector<float> radiance(width), range(width);
+	TRow row(width);
 	cv::Mat picture(m_camera.height, m_camera.width, CV_8U);
 	for (int v = 0; v < m_camera.height; v++)
 	{
 		rays.origin = R * Vector3d(-m_camera.cx / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1);
 		rays.length = m_ray_length.data() + static_cast<size_t>(v) * width;
-		sampleRow(rays, levels, radiance.data(), range.data());
-		develop(v, radiance.data(), range.data(), mixed(noise_seed, static_cast<uint64_t>(v)), picture.ptr<uint8_t>(v));
+		intersectRow(rays, row);
+		sampleRow(levels, row);
+		develop(v, row, mixed(noise_seed, static_cast<uint64_t>(v)), picture.ptr<uint8_t>(v));
 	}
 	return picture;
 }
 
-void CFloorRenderer::sampleRow(const TRays& rays, const TLevels& levels, float* radiance, float* range) const
+void CFloorRenderer::intersectRow(const TRays& rays, TRow& row) const
 {
-	const cv::Mat &fine = m_floor.levels()[levels.fine], &coarse = m_floor.levels()[levels.coarse];
-	const double to_fine = std::ldexp(1.0, -static_cast<int>(levels.fine));
-	const double to_coarse = std::ldexp(1.0, -static_cast<int>(levels.coarse));
 	const double pixels = rays.height / m_floor.resolution();
 	for (int u = 0; u < m_camera.width; u++)
 	{
-		const Vector3d ray = rays.origin + u * rays.step;
-		if (ray.z() < 1e-3 || rays.height <= 0)	 // over the horizon, or under the floor: water only
-		{
-			radiance[u] = 0, range[u] = kRangeStep * kRanges;
-			continue;
-		}
-		const double per_depth = 1 / ray.z();
-		range[u] = static_cast<float>(rays.height * per_depth) * rays.length[u];
-		// + 0.5: pixel areas, not centres, nest from level to level
-		const double col = rays.foot.x() + ray.y() * per_depth * pixels + 0.5;
-		const double row = rays.foot.y() - ray.x() * per_depth * pixels + 0.5;
-		const float a = sampled(
-			fine.data, fine.step, fine.cols - 1, fine.rows - 1, col * to_fine - 0.5, row * to_fine - 0.5);
-		const float b = sampled(
-			coarse.data, coarse.step, coarse.cols - 1, coarse.rows - 1, col * to_coarse - 0.5, row * to_coarse - 0.5);
-		radiance[u] = a + levels.share * (b - a);
+		const double north = rays.origin.x() + u * rays.step.x(), east = rays.origin.y() + u * rays.step.y();
+		const double down = rays.origin.z() + u * rays.step.z();
+		const double per_depth = 1 / std::max(down, 1e-3);	// over the horizon: far away
+		row.range[u] = static_cast<float>(rays.height * per_depth) * rays.length[u];
+		row.col[u] = rays.foot.x() + 0.5 + east * per_depth * pixels;
+		row.row[u] = rays.foot.y() + 0.5 - north * per_depth * pixels;
 	}
 }
 
-void CFloorRenderer::develop(int row, const float* radiance, const float* range, uint64_t noise_seed, uint8_t* out) const
+void CFloorRenderer::sampleRow(const TLevels& levels, TRow& row) const
 {
-	const float* vignetting = m_vignetting.data() + static_cast<size_t>(row) * static_cast<size_t>(m_camera.width);
+	const TLevelView fine(m_floor.levels()[levels.fine], levels.fine);
+	const TLevelView coarse(m_floor.levels()[levels.coarse], levels.coarse);
+	for (int u = 0; u < m_camera.width; u++)
+	{
+		const float a = fine.at(row.col[u], row.row[u]), b = coarse.at(row.col[u], row.row[u]);
+		row.radiance[u] = a + levels.share * (b - a);
+	}
+}
+
+void CFloorRenderer::develop(int v, const TRow& row, uint64_t noise_seed, uint8_t* out) const
+{
+	const float* vignetting = m_vignetting.data() + static_cast<size_t>(v) * static_cast<size_t>(m_camera.width);
+	const float *direct = m_direct.data(), *veil = m_veil.data(), *noise = m_noise.data();
 	constexpr uint64_t mask = (1 << kNoiseBits) - 1;
 	uint64_t bits = 0;
 	for (int u = 0; u < m_camera.width; u++)
 	{
 		bits = u % 4 == 0 ? mixed(noise_seed + static_cast<uint64_t>(u)) : bits >> 16;
-		const size_t i = static_cast<size_t>(std::min(range[u] / kRangeStep + 0.5f, kRanges - 1.0f));
-		const float light = (radiance[u] * m_direct[i] + m_veil[i]) * vignetting[u] + m_noise[bits & mask];
-		out[u] = static_cast<uint8_t>(std::clamp(light + 0.5f, 0.0f, 255.0f));
+		const int i = static_cast<int>(std::min(row.range[u] / kRangeStep + 0.5f, kRanges - 1.0f));
+		const float light = (row.radiance[u] * direct[i] + veil[i]) * vignetting[u] + noise[bits & mask];
+		out[u] = static_cast<uint8_t>(std::min(std::max(light + 0.5f, 0.0f), 255.0f));
 	}
 }
 

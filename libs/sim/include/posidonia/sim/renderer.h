@@ -48,10 +48,12 @@ class CFloorRenderer
 
    private:
 	struct TRays;
+	struct TRow;
 	struct TLevels;
 	TLevels chooseLevels(double height) const;
-	void sampleRow(const TRays& rays, const TLevels& levels, float* radiance, float* range) const;
-	void develop(int row, const float* radiance, const float* range, uint64_t noise_seed, uint8_t* out) const;
+	void intersectRow(const TRays& rays, TRow& row) const;
+	void sampleRow(const TLevels& levels, TRow& row) const;
+	void develop(int v, const TRow& row, uint64_t noise_seed, uint8_t* out) const;
 	void buildTables(const TWaterOptions& water, const TCameraOptions& sensor);
 
 	const CFloorTexture& m_floor;
