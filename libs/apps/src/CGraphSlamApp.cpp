@@ -15,20 +15,25 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 {
 	CCommandLine line(
 		name,
-		"Stereo graph-SLAM on a rawlog: writes a run folder with the corrected trajectory, the graph, every loop\n"
+		"Stereo graph-SLAM on a rawlog: writes a run folder with the corrected trajectory, the graph, every "
+		"loop\n"
 		"candidate and, where NAME.gt.tum lies beside the rawlog or -g is given, the errors.\n"
 		"Example: auv-graphslam -c ini/paper-exp2.ini -r data/paper-exp2.rawlog");
 	auto& cmd = line.cmd();
 	TCLAP::ValueArg<std::string> rawlog("r", "rawlog", "Rawlog to replay", false, "", "FILE.rawlog", cmd);
-	TCLAP::ValueArg<std::string> truth("g", "ground-truth", "True trajectory, TUM (only for scoring)", false, "", "FILE.tum", cmd);
-	TCLAP::ValueArg<std::string> nodes("n", "node-decider", "Overrides [Slam] node_decider", false, "", "NAME", cmd);
-	TCLAP::ValueArg<std::string> edges("e", "edge-deciders", "Overrides [Slam] edge_deciders", false, "", "NAMES", cmd);
-	TCLAP::ValueArg<std::string> optimizer("", "optimizer", "Overrides [Slam] optimizer", false, "", "NAME", cmd);
+	TCLAP::ValueArg<std::string> truth(
+		"g", "ground-truth", "True trajectory, TUM (only for scoring)", false, "", "FILE.tum", cmd);
+	TCLAP::ValueArg<std::string> nodes(
+		"n", "node-decider", "Overrides [Slam] node_decider", false, "", "NAME", cmd);
+	TCLAP::ValueArg<std::string> edges(
+		"e", "edge-deciders", "Overrides [Slam] edge_deciders", false, "", "NAMES", cmd);
+	TCLAP::ValueArg<std::string> optimizer(
+		"", "optimizer", "Overrides [Slam] optimizer", false, "", "NAME", cmd);
 	TCLAP::SwitchArg list("", "list-deciders", "Print deciders and optimisers, and stop", cmd);
-	TCLAP::SwitchArg assume("", "assume-defaults", "Without NAME.sensors.ini, take the sensors of SPARUS II", cmd);
+	TCLAP::SwitchArg assume(
+		"", "assume-defaults", "Without NAME.sensors.ini, take the sensors of SPARUS II", cmd);
 	if (!line.parse(argc, argv)) return false;
-	if (list.getValue())
-	{
+	if (list.getValue()) {
 		std::cout << listDeciders();
 		return false;
 	}
@@ -40,18 +45,19 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 	if (!rawlog.isSet() && !line.wantsConfigDump())
 		throw CUsageError("-r/--rawlog", "is missing", "give the rawlog to replay");
 	if (rawlog.isSet()) requireFile(rawlog.getValue(), "give an existing rawlog with -r/--rawlog");
-	m_sensors = rawlog.isSet() ? sensorsOfRawlog(rawlog.getValue(), assume.getValue()) : TSensorSuite::sparus2();
+	m_sensors =
+		rawlog.isSet() ? sensorsOfRawlog(rawlog.getValue(), assume.getValue()) : TSensorSuite::sparus2();
 	params = TExperiment::load(ini, m_sensors);
 	m_config_dump = ini.dump();
-	if (line.wantsConfigDump())
-	{
+	if (line.wantsConfigDump()) {
 		std::cout << m_config_dump;
 		return false;
 	}
 	m_rawlog = rawlog.getValue();
 	m_truth = truthFor(m_rawlog, truth.getValue());
 	m_verbosity = line.verbosity();
-	m_folder = std::make_unique<CRunFolder>(line.outputDir(), std::filesystem::path(m_rawlog).stem().string());
+	m_folder =
+		std::make_unique<CRunFolder>(line.outputDir(), std::filesystem::path(m_rawlog).stem().string());
 	return true;
 }
 
@@ -73,8 +79,8 @@ void CGraphSlamApp::run()
 	writeSensors(m_folder->file("sensors.ini"), m_sensors);
 	CRawlogReader reader(m_rawlog);
 	CStereoSlam slam(
-		params.slam, m_sensors, params.makeOdometry(m_sensors), std::make_unique<CStereoImageLoader>(m_rawlog),
-		m_folder->file("config.ini"));
+		params.slam, m_sensors, params.makeOdometry(m_sensors),
+		std::make_unique<CStereoImageLoader>(m_rawlog), m_folder->file("config.ini"));
 	const TSilencedAtEnd silenced{slam.timer()};
 	replay(slam, reader);
 	collect(slam, reader);
@@ -89,13 +95,13 @@ void CGraphSlamApp::run()
 void CGraphSlamApp::replay(CStereoSlam& slam, CRawlogReader& reader)
 {
 	CProgress progress("graph-SLAM", m_verbosity == 0);
-	while (const auto observation = reader.next())
-	{
+	while (const auto observation = reader.next()) {
 		slam.add(observation);
 		if (!IS_CLASS(*observation, CObservationStereoImages) || slam.map().nodeCount() == 0) continue;
 		remember(slam);
 		progress.update(
-			reader.progress(), mrpt::format("%d nodes, %zu edges", slam.map().nodeCount(), slam.map().edges().size()));
+			reader.progress(),
+			mrpt::format("%d nodes, %zu edges", slam.map().nodeCount(), slam.map().edges().size()));
 	}
 	progress.update(1);
 }
@@ -113,12 +119,14 @@ void CGraphSlamApp::collect(const CStereoSlam& slam, const CRawlogReader& reader
 {
 	if (slam.map().nodeCount() == 0)
 		throw CError(
-			reader.path(), "no node was made: " + std::string(slam.odometry().ready() ? "it holds no stereo pair" :
-				"the odometry never became ready"), "check its sensors with rawlog-edit --info, and [InitialPose]");
+			reader.path(),
+			"no node was made: " +
+				std::string(
+					slam.odometry().ready() ? "it holds no stereo pair" : "the odometry never became ready"),
+			"check its sensors with rawlog-edit --info, and [InitialPose]");
 	m_results.trajectories.nodes = slam.nodes();
 	m_results.nodes = slam.map().nodeCount();
-	for (const auto& edge : slam.map().edges())
-	{
+	for (const auto& edge : slam.map().edges()) {
 		m_results.sequential_edges += edge.kind == EEdgeKind::SEQUENTIAL;
 		m_results.roi_edges += edge.kind == EEdgeKind::ROI;
 	}
@@ -147,7 +155,8 @@ void CGraphSlamApp::writeResults(const CStereoSlam& slam)
 void CGraphSlamApp::score(const CStereoSlam&)
 {
 	const TScore score = scoreRun(
-		scoringOf(params, m_sensors), m_results.trajectories, m_folder->file("loops.csv"), m_truth, *m_folder);
+		scoringOf(params, m_sensors), m_results.trajectories, m_folder->file("loops.csv"), m_truth,
+		*m_folder);
 	m_results.metrics.insert(m_results.metrics.end(), score.metrics.begin(), score.metrics.end());
 	if (!score.text.empty()) m_folder->log(score.text, m_verbosity);
 	m_folder->log(scoreSummary(score.metrics), m_verbosity);
@@ -161,8 +170,9 @@ void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& rea
 	if (!losses.empty()) m_folder->log(losses, m_verbosity + 1);  // even when quiet
 	m_folder->log(
 		mrpt::format(
-			"%d nodes, %d sequential and %d ROI edges; chi2 %.1f (composed from the root: %.3g)", m_results.nodes,
-			m_results.sequential_edges, m_results.roi_edges, m_results.chi2, m_results.dijkstra_chi2),
+			"%d nodes, %d sequential and %d ROI edges; chi2 %.1f (composed from the root: %.3g)",
+			m_results.nodes, m_results.sequential_edges, m_results.roi_edges, m_results.chi2,
+			m_results.dijkstra_chi2),
 		m_verbosity);
 	m_folder->log(candidateCounts(slam.map().candidates), m_verbosity);
 	m_folder->log(navigationText(slam.odometry()), m_verbosity - 1);

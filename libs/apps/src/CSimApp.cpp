@@ -14,14 +14,14 @@ bool CSimApp::initialize(int argc, const char* const* argv)
 		name,
 		"Simulates a survey: writes DIR/NAME.rawlog, NAME_Images/, NAME.sensors.ini and NAME.gt.tum.\n"
 		"Example: auv-sim -c ini/paper-exp2.ini -o data");
-	TCLAP::ValueArg<std::string> output_name("", "name", "Name of the set (default: that of the ini)", false, "", "NAME", line.cmd());
+	TCLAP::ValueArg<std::string> output_name(
+		"", "name", "Name of the set (default: that of the ini)", false, "", "NAME", line.cmd());
 	if (!line.parse(argc, argv)) return false;
 
 	CIniFile ini = line.ini();
 	m_sensors = TSensorSuite::sparus2();
 	params = TExperiment::load(ini, m_sensors);
-	if (line.wantsConfigDump())
-	{
+	if (line.wantsConfigDump()) {
 		std::cout << ini.dump();
 		return false;
 	}
@@ -43,7 +43,7 @@ void CSimApp::run()
 	if (m_verbosity == 0) return;
 	std::printf(
 		"%s.rawlog: %.0f s, %.1f m, %zu observations, %zu of %zu stereo pairs kept (%.0f MB of pictures)\n",
-		m_prefix.c_str(), m_summary.duration, m_summary.path_length, m_summary.observations, m_summary.kept_pairs,
-		m_summary.stereo_pairs, static_cast<double>(m_summary.image_bytes) / 1e6);
+		m_prefix.c_str(), m_summary.duration, m_summary.path_length, m_summary.observations,
+		m_summary.kept_pairs, m_summary.stereo_pairs, static_cast<double>(m_summary.image_bytes) / 1e6);
 }
 }  // namespace posidonia

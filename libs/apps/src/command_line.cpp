@@ -15,7 +15,8 @@ std::string versionText()
 {
 	return std::string("Posidonia ") + kVersion +
 		   ": stereo graph-SLAM for AUVs, on MRPT\n"
-		   "Sources: BSD-3-Clause. This program links SuiteSparse's CHOLMOD, whose Supernodal, Modify and MatrixOps\n"
+		   "Sources: BSD-3-Clause. This program links SuiteSparse's CHOLMOD, whose Supernodal, Modify and "
+		   "MatrixOps\n"
 		   "modules are GPL-2+: the binary as a whole falls under the GPL.\n";
 }
 
@@ -48,26 +49,28 @@ bool CCommandLine::parse(int argc, const char* const* argv)
 {
 	static CVersionOutput output;
 	m_cmd.setOutput(&output);
-	try
-	{
+	try {
 		m_cmd.parse(argc, argv);
 	}
-	catch (const TCLAP::ExitException&)
-	{
+	catch (const TCLAP::ExitException&) {
 		return false;
 	}
-	catch (const TCLAP::ArgException& e)
-	{
-		throw CUsageError(e.argId() == " " ? "command line" : e.argId(), e.error(), "see " + m_app + " --help");
+	catch (const TCLAP::ArgException& e) {
+		throw CUsageError(
+			e.argId() == " " ? "command line" : e.argId(), e.error(), "see " + m_app + " --help");
 	}
 	return true;
 }
 
 CIniFile CCommandLine::ini(const std::string& fallback) const
 {
-	const std::string path = m_config.isSet() ? m_config.getValue() : std::filesystem::exists(fallback) ? fallback : "";
-	CIniFile ini = path.empty() && !m_config.isSet() ? CIniFile::fromText("", "defaults") : CIniFile::fromFile(path);
-	for (const auto& assignment : m_set.getValue()) ini.set(assignment);
+	const std::string path = m_config.isSet()					 ? m_config.getValue()
+							 : std::filesystem::exists(fallback) ? fallback
+																 : "";
+	CIniFile ini =
+		path.empty() && !m_config.isSet() ? CIniFile::fromText("", "defaults") : CIniFile::fromFile(path);
+	for (const auto& assignment : m_set.getValue())
+		ini.set(assignment);
 	return ini;
 }
 
@@ -90,7 +93,8 @@ std::string firstParagraph(const std::string& text)
 {
 	const auto marker = text.find("Message:");
 	std::string message = marker == std::string::npos ? text : text.substr(marker + 8);
-	for (const char* end : {"\nLocation:", "\n==", "\nCall"}) message = message.substr(0, message.find(end));
+	for (const char* end : {"\nLocation:", "\n==", "\nCall"})
+		message = message.substr(0, message.find(end));
 	const auto first = message.find_first_not_of(" \n"), last = message.find_last_not_of(" \n");
 	return first == std::string::npos ? text : message.substr(first, last - first + 1);
 }

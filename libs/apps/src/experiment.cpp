@@ -44,7 +44,10 @@ const COdometrySource& behindCorruptor(const COdometrySource& odometry)
 }
 }  // namespace
 
-Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry) { return behindCorruptor(odometry).now().T; }
+Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry)
+{
+	return behindCorruptor(odometry).now().T;
+}
 
 std::string navigationText(const COdometrySource& odometry)
 {

@@ -32,8 +32,11 @@ void CProgress::drawBar(double fraction, const std::string& detail)
 {
 	constexpr int kWidth = 30;
 	const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
-	const std::string bar = std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(kWidth - full), '.');
-	std::fprintf(stderr, "\r%s [%s] %3d %% %s\033[K", m_what.c_str(), bar.c_str(), static_cast<int>(fraction * 100), detail.c_str());
+	const std::string bar =
+		std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(kWidth - full), '.');
+	std::fprintf(
+		stderr, "\r%s [%s] %3d %% %s\033[K", m_what.c_str(), bar.c_str(), static_cast<int>(fraction * 100),
+		detail.c_str());
 	std::fflush(stderr);
 }
 }  // namespace posidonia

@@ -34,7 +34,8 @@ void linkLatest(const fs::path& run)
 CRunFolder::CRunFolder(const std::string& wanted, const std::string& name)
 {
 	m_path = wanted.empty() ? "runs/" + utcNow() + "-" + name : wanted;
-	while (m_path.size() > 1 && m_path.back() == '/') m_path.pop_back();
+	while (m_path.size() > 1 && m_path.back() == '/')
+		m_path.pop_back();
 	makeFolder(m_path);
 	if (wanted.empty()) linkLatest(m_path);
 }
@@ -50,5 +51,8 @@ void CRunFolder::log(const std::string& text, int verbosity)
 	if (verbosity >= 1) std::cout << text << "\n";
 }
 
-void CRunFolder::finish() const { write("run.log", m_log.str()); }
+void CRunFolder::finish() const
+{
+	write("run.log", m_log.str());
+}
 }  // namespace posidonia

@@ -13,8 +13,8 @@ std::string timingsCsv(mrpt::system::CTimeLogger& timer, int nodes)
 	std::string csv = "stage,calls,mean_ms,max_ms,total_s,ms_per_node\n";
 	for (const auto& [stage, s] : stats)
 		csv += mrpt::format(
-			"%s,%zu,%.4f,%.3f,%.3f,%.3f\n", stage.c_str(), s.n_calls, 1e3 * s.mean_t, 1e3 * s.max_t, s.total_t,
-			nodes ? 1e3 * s.total_t / nodes : 0.0);
+			"%s,%zu,%.4f,%.3f,%.3f,%.3f\n", stage.c_str(), s.n_calls, 1e3 * s.mean_t, 1e3 * s.max_t,
+			s.total_t, nodes ? 1e3 * s.total_t / nodes : 0.0);
 	return csv;
 }
 
@@ -22,18 +22,15 @@ std::string candidateCounts(const std::vector<TCandidateRow>& rows)
 {
 	std::map<std::string, std::map<std::string, int>> counts;
 	std::map<std::string, int> totals;
-	for (const auto& row : rows)
-	{
+	for (const auto& row : rows) {
 		counts[toString(row.kind)][row.status]++;
 		totals[toString(row.kind)]++;
 	}
 	std::string text;
-	for (const auto& [kind, by_status] : counts)
-	{
+	for (const auto& [kind, by_status] : counts) {
 		text += (text.empty() ? "" : "\n") + std::to_string(totals[kind]) + " " + kind + " candidates:";
 		const char* separator = " ";
-		for (const auto& [status, n] : by_status)
-		{
+		for (const auto& [status, n] : by_status) {
 			text += separator + std::to_string(n) + " " + status;
 			separator = ", ";
 		}
@@ -44,8 +41,7 @@ std::string candidateCounts(const std::vector<TCandidateRow>& rows)
 std::string scoreSummary(const TMetrics& metrics)
 {
 	std::string text;
-	for (const char* what : {"nodes", "slam", "odom"})
-	{
+	for (const char* what : {"nodes", "slam", "odom"}) {
 		const std::string p = std::string(what) + ".ate.";
 		text += mrpt::format(
 			"%-5s mean 3D error %.4f m unaligned, %.4f m yaw+position-aligned, worst %.4f m\n", what,
@@ -53,9 +49,9 @@ std::string scoreSummary(const TMetrics& metrics)
 			metric(metrics, p + "unaligned.max"));
 	}
 	text += mrpt::format(
-		"loops: %.0f accepted, %.0f false; sequential: %.0f accepted, %.0f false", metric(metrics, "loops.accepted"),
-		metric(metrics, "loops.false"), metric(metrics, "loops.sequential.accepted"),
-		metric(metrics, "loops.sequential.false"));
+		"loops: %.0f accepted, %.0f false; sequential: %.0f accepted, %.0f false",
+		metric(metrics, "loops.accepted"), metric(metrics, "loops.false"),
+		metric(metrics, "loops.sequential.accepted"), metric(metrics, "loops.sequential.false"));
 	return text;
 }
 
@@ -64,14 +60,14 @@ std::string replayLosses(const CRawlogReader& reader)
 	std::string text;
 	if (!reader.damage().empty()) text = "warning: " + reader.damage();
 	if (reader.actionsLeftAside() > 0)
-		text += (text.empty() ? "" : "\n") + mrpt::format("%zu robot actions left aside", reader.actionsLeftAside());
+		text += (text.empty() ? "" : "\n") +
+				mrpt::format("%zu robot actions left aside", reader.actionsLeftAside());
 	return text;
 }
 
 std::string truthFor(const std::string& rawlog, const std::string& given)
 {
-	if (!given.empty())
-	{
+	if (!given.empty()) {
 		requireFile(given, "give an existing TUM file with -g/--ground-truth");
 		return given;
 	}

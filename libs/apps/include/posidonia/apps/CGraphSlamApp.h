@@ -18,7 +18,8 @@ class CGraphSlamApp
    public:
 	static constexpr const char* name = "auv-graphslam";
 
-	/** False when --help, --version, --dump-config or --list-deciders was answered. Throws CError, CUsageError. */
+	/** False when --help, --version, --dump-config or --list-deciders was answered. Throws CError,
+	 * CUsageError. */
 	bool initialize(int argc, const char* const* argv);
 	void run();
 

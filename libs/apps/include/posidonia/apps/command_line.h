@@ -1,7 +1,7 @@
 #pragma once
 
-#include <tclap/CmdLine.h>
 #include <posidonia/base/ini_file.h>
+#include <tclap/CmdLine.h>
 
 #include <string>
 #include <vector>
@@ -22,7 +22,8 @@ class CCommandLine
 	/** False when --help or --version was asked for and answered. Throws CUsageError. */
 	bool parse(int argc, const char* const* argv);
 
-	/** The ini of -c (without it `fallback` where given and existing, else empty: all defaults) with every --set. */
+	/** The ini of -c (without it `fallback` where given and existing, else empty: all defaults) with every
+	 * --set. */
 	CIniFile ini(const std::string& fallback = "") const;
 	std::string configName() const;	 ///< "paper-exp1" of "ini/paper-exp1.ini"; "defaults" without -c
 	/** A file that the ini names: as it stands, or relative to the ini's folder. */
@@ -45,8 +46,8 @@ class CCommandLine
 /** "Posidonia 0.1.0 ...", with the licences of what is linked. */
 std::string versionText();
 
-/** main() of an app class with initialize(argc, argv) -> bool and run(): prints "app: error: ..." and returns the exit
- * status: 0 done, 1 failed, 2 wrong command line. */
+/** main() of an app class with initialize(argc, argv) -> bool and run(): prints "app: error: ..." and returns
+ * the exit status: 0 done, 1 failed, 2 wrong command line. */
 template <class APP>
 int runApp(int argc, const char* const* argv);
 
@@ -57,14 +58,12 @@ int reportProblem(const char* app, const std::exception& problem);
 template <class APP>
 int posidonia::runApp(int argc, const char* const* argv)
 {
-	try
-	{
+	try {
 		APP app;
 		if (app.initialize(argc, argv)) app.run();
 		return 0;
 	}
-	catch (const std::exception& problem)
-	{
+	catch (const std::exception& problem) {
 		return reportProblem(APP::name, problem);
 	}
 }

@@ -20,7 +20,8 @@ struct TOdometryChoice
 	template <class VISITOR>
 	void visit(VISITOR& v)
 	{
-		v.choice("source", source, {"ekf", "recorded"}, "ekf: the navigation filter; recorded: poses in the log");
+		v.choice(
+			"source", source, {"ekf", "recorded"}, "ekf: the navigation filter; recorded: poses in the log");
 	}
 };
 
@@ -32,12 +33,14 @@ struct TReportOptions
 	template <class VISITOR>
 	void visit(VISITOR& v)
 	{
-		v.integer("paper_experiment", paper_experiment, between(0, 2), "Print the paper's table of experiment 1 or 2; 0: none");
+		v.integer(
+			"paper_experiment", paper_experiment, between(0, 2),
+			"Print the paper's table of experiment 1 or 2; 0: none");
 	}
 };
 
-/** Everything an ini may say: one file drives all apps, each takes what it needs, and a key that no app knows is an
- * error in every one of them. */
+/** Everything an ini may say: one file drives all apps, each takes what it needs, and a key that no app knows
+ * is an error in every one of them. */
 struct TExperiment
 {
 	TSimulationOptions simulation;
@@ -65,6 +68,7 @@ Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry);
 /** Statistics of the navigation filter behind a corruptor; empty for a recording. */
 std::string navigationText(const COdometrySource& odometry);
 
-/** Sensors of a rawlog: <name>.sensors.ini beside it; SPARUS II's with `assume_defaults` when it is absent. */
+/** Sensors of a rawlog: <name>.sensors.ini beside it; SPARUS II's with `assume_defaults` when it is absent.
+ */
 TSensorSuite sensorsOfRawlog(const std::string& rawlog, bool assume_defaults);
 }  // namespace posidonia
