@@ -9,7 +9,7 @@ target_compile_features(posidonia_build_flags INTERFACE cxx_std_17)
 # positives of -Wmaybe-uninitialized and -Warray-bounds inside Eigen at -O3.
 target_compile_options(posidonia_build_flags INTERFACE
 	-Wall -Wextra -Wconversion -Wno-sign-conversion -Wno-maybe-uninitialized -Wno-array-bounds
-	-ffp-contract=off)
+	-ffp-contract=off -fopenmp-simd)  # (only `#pragma omp simd`, no threads)
 if(POSIDONIA_WARNINGS_AS_ERRORS)
 	target_compile_options(posidonia_build_flags INTERFACE -Werror)
 endif()

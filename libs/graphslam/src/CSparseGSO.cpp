@@ -58,6 +58,7 @@ bool CSparseGSO::follow() { return append(m_pose_graph, m_parts->map, m_parts->o
 void CSparseGSO::optimizeGraph()
 {
 	const mrpt::system::CTimeLoggerEntry timing(m_parts->timer, "optimize");
+	m_marginals.reset();
 	m_optimizer->optimize(m_pose_graph);
 	for (int n = 0; n < m_parts->map.nodeCount(); n++) m_parts->map.setPose(n, m_pose_graph.pose(n));
 	m_just_optimized = true;
@@ -65,6 +66,13 @@ void CSparseGSO::optimizeGraph()
 
 std::vector<Matrix6d> CSparseGSO::relativeCovariances(const CSlamMap&, const std::vector<int>& is, int j)
 {
-	return m_optimizer->marginals(m_pose_graph).relativeCovariances(is, j);
+	// One factorisation serves every decider of a step.
+	if (!m_marginals || j >= m_marginal_nodes)
+	{
+		m_marginals.reset();
+		m_marginals.emplace(m_optimizer->marginals(m_pose_graph));
+		m_marginal_nodes = static_cast<int>(m_pose_graph.nodeCount());
+	}
+	return m_marginals->relativeCovariances(is, j);
 }
 }  // namespace posidonia

@@ -100,6 +100,7 @@ struct CStereoSlam::TImplementation
 		  optimizer(makeOptimizer(options.slam.optimizer, parts)),
 		  engine(makeEngine(config_file, parts, *node_decider, *edge_decider, *optimizer))
 	{
+		parts.timer.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // else it prints itself when it dies
 	}
 };
 
@@ -130,7 +131,8 @@ TCausalPose CStereoSlam::now() const
 {
 	const Isometry3d T_odom_body = m_impl->odometry->now().T;
 	const int last = map().lastNode();
-	const Isometry3d T_map_odom = map().pose(last) * map().node(last).T_odom_body.inverse();
+	Isometry3d T_map_odom = Isometry3d::Identity();	 // until the first node, map and odom are one
+	if (last >= 0) T_map_odom = map().pose(last) * map().node(last).T_odom_body.inverse();
 	return {m_impl->odometry->stamp(), T_map_odom * T_odom_body, T_odom_body};
 }
 

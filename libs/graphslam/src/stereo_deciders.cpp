@@ -1,6 +1,8 @@
 #include <posidonia/graphslam/loop_candidates.h>
 #include <posidonia/graphslam/stereo_deciders.h>
 
+#include <set>
+
 namespace posidonia
 {
 using namespace mrpt::obs;
@@ -12,15 +14,27 @@ CStereoERD::TChosen CSequentialStereoERD::chooseCandidates(int j, const TSlamPar
 	return chosen;
 }
 
+namespace
+{
+/** Nodes that an earlier decider has tried against node j: the same pictures again would count twice. */
+std::set<int> triedAgainst(int j, const CSlamMap& map)
+{
+	std::set<int> tried;
+	for (auto row = map.candidates.rbegin(); row != map.candidates.rend() && row->to == j; ++row) tried.insert(row->from);
+	return tried;
+}
+}  // namespace
+
 CStereoERD::TChosen CRoiStereoERD::chooseCandidates(int j, const TSlamParts::TRig& rig)
 {
 	const TRoiOptions& roi = m_parts->options.roi;
-	const auto candidates = candidatesInRoi(m_parts->map, j, roi, rig.camera, rig.T_body_camera);
+	const auto tried = triedAgainst(j, m_parts->map);
 	TChosen chosen;
-	for (size_t k = 0; k < candidates.size(); k++)
+	for (const auto& candidate : candidatesInRoi(m_parts->map, j, roi, rig.camera, rig.T_body_camera))
 	{
-		auto& list = k < static_cast<size_t>(roi.max_candidates) ? chosen.register_now : chosen.over_budget;
-		list.push_back(candidates[k].node);
+		if (tried.count(candidate.node)) continue;
+		const bool in_budget = chosen.register_now.size() < static_cast<size_t>(roi.max_candidates);
+		(in_budget ? chosen.register_now : chosen.over_budget).push_back(candidate.node);
 	}
 	return chosen;
 }

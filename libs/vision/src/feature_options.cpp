@@ -13,8 +13,9 @@ struct TMeasuredNoise
 {
 	double finest, growth;
 };
-TMeasuredNoise measuredNoise(const std::string& detector)
+TMeasuredNoise measuredNoise(const std::string& detector, int shrink)
 {
+	if (detector == "SIFT" && shrink > 1) return {0.078, 1.42};	 // 0.111 px at octave 1, the first there is
 	if (detector == "SIFT") return {0.065, 1.42};
 	if (detector == "ORB") return {0.33, 1.8};	// no sub-pixel position: uniform over a pixel of its level
 	return {0.12, 1.5};
@@ -23,7 +24,7 @@ TMeasuredNoise measuredNoise(const std::string& detector)
 
 double TFeatureOptions::positionSigma(double octave) const
 {
-	const TMeasuredNoise measured = measuredNoise(detector);
+	const TMeasuredNoise measured = measuredNoise(detector, shrink);
 	return (sigma_uv > 0 ? sigma_uv : measured.finest) *
 		   std::pow(sigma_uv_growth > 0 ? sigma_uv_growth : measured.growth, octave);
 }

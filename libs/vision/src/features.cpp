@@ -58,12 +58,24 @@ bool beforeInImage(const cv::KeyPoint& a, const cv::KeyPoint& b)
 		   std::tie(b.pt.y, b.pt.x, a.response, b.size, b.angle, b.octave);
 }
 
-cv::Mat equalised(const cv::Mat& image, const TFeatureOptions& o)
+/** The image that the detector sees: equalised and shrunk as the options say. */
+cv::Mat prepared(const cv::Mat& image, const TFeatureOptions& o)
 {
-	if (!o.clahe) return image;
-	cv::Mat out;
-	cv::createCLAHE(o.clahe_clip, cv::Size(8, 8))->apply(image, out);
+	cv::Mat out = image;
+	if (o.clahe) cv::createCLAHE(o.clahe_clip, cv::Size(8, 8))->apply(image, out = cv::Mat());
+	if (o.shrink > 1) cv::resize(out, out, out.size() / o.shrink, 0, 0, cv::INTER_AREA);
 	return out;
+}
+
+/** A key point of the prepared image, in pixels of the whole one: a shrunk pixel covers `shrink` whole ones.
+ */
+cv::KeyPoint inWholeImage(cv::KeyPoint k, const TFeatureOptions& o)
+{
+	correctPosition(k, o.detector);
+	const auto s = static_cast<float>(o.shrink);
+	k.pt = cv::Point2f((k.pt.x + 0.5f) * s - 0.5f, (k.pt.y + 0.5f) * s - 0.5f);
+	k.size *= s;
+	return k;
 }
 }  // namespace
 
@@ -106,7 +118,9 @@ TFeatures detectFeatures(const cv::Mat& image, const TFeatureOptions& options)
 	// ever meets another detector's key points.
 	std::vector<cv::KeyPoint> all;
 	cv::Mat descriptors;
-	makeDetector(options)->detectAndCompute(equalised(image, options), {}, all, descriptors);
+	makeDetector(options)->detectAndCompute(prepared(image, options), {}, all, descriptors);
+	for (auto& k : all)
+		k = inWholeImage(k, options);
 
 	TFeatures features;
 	const auto chosen =
@@ -114,8 +128,7 @@ TFeatures detectFeatures(const cv::Mat& image, const TFeatureOptions& options)
 	if (chosen.empty()) return features;
 	features.descriptors.create(static_cast<int>(chosen.size()), descriptors.cols, CV_8U);
 	for (size_t row = 0; row < chosen.size(); row++) {
-		cv::KeyPoint k = all[chosen[row]];
-		correctPosition(k, options.detector);
+		const cv::KeyPoint& k = all[chosen[row]];
 		features.key_points.push_back(k);
 		features.octaves.push_back(std::max(0.0, std::log2(k.size / smallestSize(options.detector))));
 		// SIFT's floats are whole numbers 0..255: nothing is lost.

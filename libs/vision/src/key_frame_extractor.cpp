@@ -61,6 +61,23 @@ std::optional<TStereoPoint> CKeyFrameExtractor::measure(
 	return makeStereoPoint(m_camera, uvd, sigma_uv, sigma_d, octave);
 }
 
+std::vector<std::optional<TStereoPoint>> CKeyFrameExtractor::measureAll(
+	const CPatchAligner& aligner, const TFeatures& left, const TFeatures& right,
+	const std::vector<std::pair<int, int>>& pairs) const
+{
+	std::vector<std::optional<TStereoPoint>> points(pairs.size());
+	const auto half = [&](size_t first, size_t last) {
+		for (size_t k = first; k < last; k++) {
+			const auto& [i, j] = pairs[k];
+			points[k] = measure(aligner, left.key_points[i], right.key_points[j], left.octaves[i]);
+		}
+	};
+	auto second = std::async(std::launch::async, half, pairs.size() / 2, pairs.size());
+	half(0, pairs.size() / 2);
+	second.get();
+	return points;
+}
+
 TKeyFrame CKeyFrameExtractor::extract(const cv::Mat& left, const cv::Mat& right) const
 {
 	checkImage(left, "left");
@@ -73,12 +90,13 @@ TKeyFrame CKeyFrameExtractor::extract(const cv::Mat& left, const cv::Mat& right)
 	frame.binary = isBinaryDetector(m_options.detector);
 	frame.detected_left = static_cast<int>(l.key_points.size());
 	frame.detected_right = static_cast<int>(r.key_points.size());
-	const CPatchAligner aligner(left, right);
+	const auto pairs = matchRows(l, r, m_options, m_min_disparity, m_max_disparity);
+	const auto points = measureAll(CPatchAligner(left, right), l, r, pairs);
 	std::vector<int> rows;
-	for (const auto& [i, j] : matchRows(l, r, m_options, m_min_disparity, m_max_disparity))
-		if (const auto point = measure(aligner, l.key_points[i], r.key_points[j], l.octaves[i])) {
-			frame.points.push_back(*point);
-			rows.push_back(i);
+	for (size_t k = 0; k < pairs.size(); k++)
+		if (points[k]) {
+			frame.points.push_back(*points[k]);
+			rows.push_back(pairs[k].first);
 		}
 	frame.descriptors.create(static_cast<int>(rows.size()), l.descriptors.cols, CV_8U);
 	for (size_t k = 0; k < rows.size(); k++)

@@ -58,17 +58,18 @@ struct CPatchAligner::TNormalEquations
 
 	void addRow(const float* left, const float* gradient, const float* right, int count, const TCubic& c)
 	{
-		float s[9] = {};
+		const float w0 = c.w[0], w1 = c.w[1], w2 = c.w[2], w3 = c.w[3];
+		float L1 = 0, R1 = 0, G1 = 0, LL = 0, RR = 0, GG = 0, LR = 0, LG = 0, RG = 0;
+#pragma omp simd reduction(+ : L1, R1, G1, LL, RR, GG, LR, LG, RG)
 		for (int i = 0; i < count; i++) {
-			const float* p = right + i;
 			const float L = left[i], G = gradient[i];
-			const float R = c.w[0] * p[-1] + c.w[1] * p[0] + c.w[2] * p[1] + c.w[3] * p[2];
-			s[0] += L, s[1] += R, s[2] += G;
-			s[3] += L * L, s[4] += R * R, s[5] += G * G;
-			s[6] += L * R, s[7] += L * G, s[8] += R * G;
+			const float R = w0 * right[i - 1] + w1 * right[i] + w2 * right[i + 1] + w3 * right[i + 2];
+			L1 += L, R1 += R, G1 += G;
+			LL += L * L, RR += R * R, GG += G * G;
+			LR += L * R, LG += L * G, RG += R * G;
 		}
-		n += count, l += s[0], r += s[1], g += s[2];
-		ll += s[3], rr += s[4], gg += s[5], lr += s[6], lg += s[7], rg += s[8];
+		n += count, l += L1, r += R1, g += G1;
+		ll += LL, rr += RR, gg += GG, lr += LR, lg += LG, rg += RG;
 	}
 	void centre()
 	{

@@ -30,6 +30,8 @@ class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlam
 
 	CPoseGraph m_pose_graph;
 	std::unique_ptr<CSparseOptimizer> m_optimizer;
+	std::optional<CMarginals> m_marginals;	// of the first m_marginal_nodes nodes, until the next optimisation
+	int m_marginal_nodes{0};
 	bool m_just_optimized{false};
 };
 

@@ -28,6 +28,13 @@ struct TStereoSlamOptions
 	TGraphLossOptions loss;
 	TLevMarqOptions levmarq;
 
+	/** Online, each node brings a new graph: far below the noise is near enough (the next one starts from there). */
+	TStereoSlamOptions()
+	{
+		optimizer.min_relative_decrease = 1e-5;
+		optimizer.min_gradient = 0.02;
+	}
+
 	/** Calls f("Section", its struct) for each. */
 	template <class F>
 	void forEachSection(F&& f)

@@ -11,6 +11,7 @@ struct TFeatureOptions
 {
 	std::string detector{"SIFT"};
 	int max_features{800};
+	int shrink{2};
 	int grid_columns{8}, grid_rows{6};
 	double sift_contrast{0.02};
 	int orb_fast_threshold{7};
@@ -34,6 +35,11 @@ struct TFeatureOptions
 		v.choice("detector", detector, {"SIFT", "ORB", "AKAZE"}, "Features");
 		v.integer(
 			"max_features", max_features, between(10, 10000), "Key points kept an image, spread over a grid");
+		v.integer(
+			"shrink", shrink, between(1, 4),
+			"Detect on the image shrunk so many times: 2 leaves out the finest scale and costs a third "
+			"(disparities "
+			"are always measured on the whole image)");
 		v.integer(
 			"grid_columns", grid_columns, between(1, 64), "Columns of the grid that spreads the key points");
 		v.integer("grid_rows", grid_rows, between(1, 64), "Rows of that grid");

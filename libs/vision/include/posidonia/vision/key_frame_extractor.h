@@ -6,6 +6,8 @@
 #include <posidonia/vision/key_frame.h>
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace posidonia
 {
@@ -26,6 +28,10 @@ class CKeyFrameExtractor
 	const TStereoCamera& camera() const { return m_camera; }
 
    private:
+	/** Every pair (left, right) of key points measured, on two threads. */
+	std::vector<std::optional<TStereoPoint>> measureAll(
+		const class CPatchAligner& aligner, const TFeatures& left, const TFeatures& right,
+		const std::vector<std::pair<int, int>>& pairs) const;
 	void checkImage(const cv::Mat& image, const char* side) const;
 	std::optional<TStereoPoint> measure(
 		const class CPatchAligner& aligner, const cv::KeyPoint& left, const cv::KeyPoint& right,
