@@ -10,7 +10,8 @@ using Eigen::Vector3d;
 namespace
 {
 template <class OBSERVATION>
-typename OBSERVATION::Ptr makeObservation(const std::string& label, double stamp, const Isometry3d& T_body_sensor)
+typename OBSERVATION::Ptr makeObservation(
+	const std::string& label, double stamp, const Isometry3d& T_body_sensor)
 {
 	auto observation = OBSERVATION::Create();
 	observation->sensorLabel = label;
@@ -32,8 +33,13 @@ Eigen::Matrix<double, 3, 4> dvlBeams(const TDvlSpec& nominal)
 CSimulatedDvl::CSimulatedDvl(
 	const std::string& label, const TDvlSpec& nominal, const TSimulatedDvlOptions& options,
 	const TCalibrationErrorOptions& errors, double floor_depth, uint64_t seed)
-	: m_label(label), m_nominal(nominal), m_options(options), m_T_body_dvl(trueDvlPose(nominal, errors)),
-	  m_scale(1 + errors.dvl_scale), m_floor_depth(floor_depth), m_beams(dvlBeams(nominal)),
+	: m_label(label),
+	  m_nominal(nominal),
+	  m_options(options),
+	  m_T_body_dvl(trueDvlPose(nominal, errors)),
+	  m_scale(1 + errors.dvl_scale),
+	  m_floor_depth(floor_depth),
+	  m_beams(dvlBeams(nominal)),
 	  m_noise(seedOf(seed, label))
 {
 }
@@ -44,8 +50,7 @@ mrpt::obs::CObservation::Ptr CSimulatedDvl::measure(const TVehicleState& state, 
 	measureVelocity(state, *dvl);
 	const double altitude = m_floor_depth - (state.T_map_body * m_T_body_dvl.translation()).z();
 	measureRanges(state, altitude, *dvl);
-	if (altitude < m_options.min_altitude || altitude > m_options.max_altitude)
-	{
+	if (altitude < m_options.min_altitude || altitude > m_options.max_altitude) {
 		dvl->velocity = {0, 0, 0};
 		dvl->velocity_valid = dvl->altitude_valid = false;
 		dvl->altitude = 0;
@@ -58,10 +63,10 @@ mrpt::obs::CObservation::Ptr CSimulatedDvl::measure(const TVehicleState& state, 
 void CSimulatedDvl::measureVelocity(const TVehicleState& state, CObservationDVL& dvl)
 {
 	const Vector3d lever = m_T_body_dvl.translation();
-	const Vector3d truth =
-		m_T_body_dvl.linear().transpose() * (state.v_body + state.omega_body.cross(lever));
+	const Vector3d truth = m_T_body_dvl.linear().transpose() * (state.v_body + state.omega_body.cross(lever));
 	Vector3d v;
-	for (int i = 0; i < 3; i++) v[i] = m_scale * truth[i] + m_nominal.sigma_velocity * m_noise.normal();
+	for (int i = 0; i < 3; i++)
+		v[i] = m_scale * truth[i] + m_nominal.sigma_velocity * m_noise.normal();
 	dvl.velocity = {v.x(), v.y(), v.z()};
 	dvl.velocity_valid = true;
 	// The fourth degree of freedom of a Janus head, the "error velocity", which the three axes do not see.
@@ -75,9 +80,9 @@ void CSimulatedDvl::measureRanges(const TVehicleState& state, double true_altitu
 {
 	const Matrix3d R_map_dvl = state.T_map_body.linear() * m_T_body_dvl.linear();
 	dvl.beam_ranges.resize(4);
-	for (int i = 0; i < 4; i++)
-	{
-		const double slope = (R_map_dvl * m_beams.col(i)).z(), noise = m_options.sigma_altitude * m_noise.normal();
+	for (int i = 0; i < 4; i++) {
+		const double slope = (R_map_dvl * m_beams.col(i)).z(),
+					 noise = m_options.sigma_altitude * m_noise.normal();
 		dvl.beam_ranges[i] = slope > 0.05 ? true_altitude / slope + noise : std::nan("");
 	}
 	dvl.altitude = true_altitude + m_options.sigma_altitude * m_noise.normal();
@@ -99,15 +104,16 @@ mrpt::obs::CObservation::Ptr CSimulatedPressure::measure(const TVehicleState& st
 }
 
 CSimulatedGps::CSimulatedGps(
-	const std::string& label, const TGpsSpec& spec, const TSimulatedGpsOptions& options, const TWorldOptions& datum,
-	uint64_t seed)
+	const std::string& label, const TGpsSpec& spec, const TSimulatedGpsOptions& options,
+	const TWorldOptions& datum, uint64_t seed)
 	: m_label(label), m_spec(spec), m_options(options), m_datum(datum), m_noise(seedOf(seed, label))
 {
 }
 
 mrpt::obs::CObservation::Ptr CSimulatedGps::measure(const TVehicleState& state, double stamp)
 {
-	const double north = m_noise.normal(), east = m_noise.normal();	 // drawn under water too: one pair an instant
+	const double north = m_noise.normal(),
+				 east = m_noise.normal();  // drawn under water too: one pair an instant
 	if (state.T_map_body.translation().z() >= m_options.max_depth) return {};
 	const Isometry3d T_body_sensor = m_spec.T_body_sensor();
 	auto gps = makeObservation<mrpt::obs::CObservationGPS>(m_label, stamp, T_body_sensor);

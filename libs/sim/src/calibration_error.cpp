@@ -10,9 +10,9 @@ TCalibrationErrorOptions drawnSigns(const TCalibrationErrorOptions& errors, uint
 	TCalibrationErrorOptions drawn = errors;
 	if (!errors.random_signs) return drawn;
 	uint64_t i = 0;
-	for (double* e : {&drawn.focal_length, &drawn.baseline, &drawn.camera_yaw, &drawn.camera_pitch,
-					  &drawn.camera_roll, &drawn.camera_clock, &drawn.dvl_yaw, &drawn.dvl_pitch, &drawn.dvl_roll,
-					  &drawn.dvl_scale})
+	for (double* e :
+		 {&drawn.focal_length, &drawn.baseline, &drawn.camera_yaw, &drawn.camera_pitch, &drawn.camera_roll,
+		  &drawn.camera_clock, &drawn.dvl_yaw, &drawn.dvl_pitch, &drawn.dvl_roll, &drawn.dvl_scale})
 		if (mixed(seedOf(seed, "calibration error"), i++) & 1) *e = -*e;
 	return drawn;
 }
@@ -34,7 +34,8 @@ TStereoSpec trueStereo(const TStereoSpec& nominal, const TCalibrationErrorOption
 	rig.camera.fx *= 1 + e.focal_length;
 	rig.camera.fy *= 1 + e.focal_length;
 	rig.camera.baseline *= 1 + e.baseline;
-	rig.pose = TSensorMount::poseNumbers(turned(nominal.T_body_sensor(), e.camera_yaw, e.camera_pitch, e.camera_roll));
+	rig.pose = TSensorMount::poseNumbers(
+		turned(nominal.T_body_sensor(), e.camera_yaw, e.camera_pitch, e.camera_roll));
 	return rig;
 }
 

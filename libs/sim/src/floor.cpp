@@ -11,7 +11,8 @@ namespace posidonia
 {
 namespace
 {
-constexpr int kLevels = 6;	///< 5 mm to 16 cm a pixel
+constexpr int kLevels = 6;					   ///< 5 mm to 16 cm a pixel
+constexpr int kMultiple = 1 << (kLevels - 1);  ///< Pixels of level 0 to one of the last
 
 cv::Mat readGrey(const std::string& path)
 {
@@ -34,15 +35,15 @@ cv::Mat scaledToMetres(const cv::Mat& picture, double metres, double resolution)
 std::vector<float> borderRamp(int length, double blend)
 {
 	std::vector<float> ramp(static_cast<size_t>(length));
-	for (int i = 0; i < length; i++)
-	{
+	for (int i = 0; i < length; i++) {
 		const double x = std::min(1.0, (std::min(i, length - 1 - i) + 0.5) / blend);
 		ramp[static_cast<size_t>(i)] = static_cast<float>(x * x * (3 - 2 * x));
 	}
 	return ramp;
 }
 
-/** Lays `picture` onto the middle of `floor`; the border fades so that the contrast (not only the mean) goes on. */
+/** Lays `picture` onto the middle of `floor`; the border fades so that the contrast (not only the mean) goes
+ * on. */
 void layInMiddle(const cv::Mat& picture, double blend, cv::Mat& floor)
 {
 	const cv::Rect whole({0, 0}, floor.size());
@@ -50,15 +51,16 @@ void layInMiddle(const cv::Mat& picture, double blend, cv::Mat& floor)
 	const cv::Rect seen = place & whole;
 	const auto ramp_x = borderRamp(picture.cols, blend), ramp_y = borderRamp(picture.rows, blend);
 	const float mean = static_cast<float>(cv::mean(picture)[0]);
-	for (int y = seen.y; y < seen.br().y; y++)
-	{
+	for (int y = seen.y; y < seen.br().y; y++) {
 		uint8_t* out = floor.ptr<uint8_t>(y);
 		const uint8_t* in = picture.ptr<uint8_t>(y - place.y);
 		const float wy = ramp_y[static_cast<size_t>(y - place.y)];
-		for (int x = seen.x; x < seen.br().x; x++)
-		{
+		for (int x = seen.x; x < seen.br().x; x++) {
 			const float w = wy * ramp_x[static_cast<size_t>(x - place.x)];
-			if (w >= 1) { out[x] = in[x - place.x]; continue; }
+			if (w >= 1) {
+				out[x] = in[x - place.x];
+				continue;
+			}
 			const float p = static_cast<float>(in[x - place.x]) - mean, q = static_cast<float>(out[x]) - mean;
 			const float blended = (w * p + (1 - w) * q) / std::sqrt(w * w + (1 - w) * (1 - w));
 			out[x] = cv::saturate_cast<uint8_t>(mean + blended);
@@ -92,10 +94,13 @@ void adjust(const TFloorOptions& o, cv::Mat& floor)
 
 cv::Mat floorOf(const TFloorOptions& o, uint64_t seed)
 {
-	const auto pixels = [&](double metres) { return static_cast<int>(std::lround(metres / o.resolution)); };
+	// Rounded up to what the coarsest level needs.
+	const auto pixels = [&](double metres) {
+		return static_cast<int>(std::ceil(metres / o.resolution / kMultiple)) * kMultiple;
+	};
 	const cv::Size size(pixels(o.extent_east), pixels(o.extent_north));
 	const uint64_t own = seedOf(seed, "floor");
-	cv::Mat floor = o.texture == "photo"  ? photoFloor(o, size, own)
+	cv::Mat floor = o.texture == "photo"   ? photoFloor(o, size, own)
 					: o.texture == "tiled" ? tiledFloor(o, size)
 					: o.texture == "rock"  ? proceduralRock(size, o.resolution, own)
 										   : proceduralSand(size, o.resolution, own);
@@ -109,8 +114,7 @@ std::string findImage(const std::string& image, const std::vector<std::string>& 
 	namespace fs = std::filesystem;
 	if (fs::path(image).is_absolute()) return requireFile(image, "correct [Floor] image"), image;
 	std::string tried;
-	for (const auto& folder : folders)
-	{
+	for (const auto& folder : folders) {
 		const fs::path path = fs::path(folder) / image;
 		if (fs::is_regular_file(path)) return path.string();
 		tried += (tried.empty() ? "" : ", ") + path.string();
@@ -123,16 +127,19 @@ CFloorTexture::CFloorTexture(const TFloorOptions& options, uint64_t seed) : m_re
 	build(floorOf(options, seed));
 }
 
-CFloorTexture::CFloorTexture(const cv::Mat& level0, double resolution) : m_resolution(resolution) { build(level0); }
+CFloorTexture::CFloorTexture(const cv::Mat& level0, double resolution) : m_resolution(resolution)
+{
+	build(level0);
+}
 
 void CFloorTexture::build(const cv::Mat& level0)
 {
-	const int multiple = 1 << (kLevels - 1);
-	const cv::Size size(level0.cols / multiple * multiple, level0.rows / multiple * multiple);
-	if (size.area() == 0) throw CError("[Floor]", "the texture is smaller than 32 pixels", "enlarge its extent");
-	m_levels = {level0(cv::Rect({0, 0}, size)).clone()};
-	while (m_levels.size() < kLevels)
-	{
+	const cv::Size size(level0.cols / kMultiple * kMultiple, level0.rows / kMultiple * kMultiple);
+	if (size.area() == 0)
+		throw CError("[Floor]", "the texture is smaller than 32 pixels", "enlarge its extent");
+	const cv::Point corner((level0.cols - size.width) / 2, (level0.rows - size.height) / 2);
+	m_levels = {level0(cv::Rect(corner, size)).clone()};
+	while (m_levels.size() < kLevels) {
 		cv::Mat half;  // exactly 2 x 2 pixels to one
 		cv::resize(m_levels.back(), half, m_levels.back().size() / 2, 0, 0, cv::INTER_AREA);
 		m_levels.push_back(half);
@@ -143,6 +150,7 @@ Eigen::Vector2d CFloorTexture::pixelAt(const Eigen::Vector2d& north_east) const
 {
 	const cv::Mat& level = m_levels.front();
 	return {
-		(level.cols - 1) / 2.0 + north_east.y() / m_resolution, (level.rows - 1) / 2.0 - north_east.x() / m_resolution};
+		(level.cols - 1) / 2.0 + north_east.y() / m_resolution,
+		(level.rows - 1) / 2.0 - north_east.x() / m_resolution};
 }
 }  // namespace posidonia

@@ -4,9 +4,9 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-/* Noise by octaves, coarse to fine: each octave enlarges the sum so far by two (pyrUp, a cubic B-spline) and adds
- * white noise made of the hash of (seed, octave, row, column) - value noise with nothing that ever repeats. Fixed
- * point: 16 bits a pixel, kUnit to a grey level. */
+/* Noise by octaves, coarse to fine: each octave enlarges the sum so far by two (pyrUp, a cubic B-spline) and
+ * adds white noise made of the hash of (seed, octave, row, column) - value noise with nothing that ever
+ * repeats. Fixed point: 16 bits a pixel, kUnit to a grey level. */
 namespace posidonia
 {
 namespace
@@ -24,13 +24,11 @@ void addWhite(cv::Mat& image, double sigma, uint64_t seed)
 {
 	const double bell_sigma = 2 * std::sqrt((256.0 * 256.0 - 1) / 12);
 	const int factor = static_cast<int>(std::lround(sigma * kUnit / bell_sigma * 4096));
-	for (int y = 0; y < image.rows; y++)
-	{
+	for (int y = 0; y < image.rows; y++) {
 		int16_t* row = image.ptr<int16_t>(y);
 		const uint64_t row_seed = mixed(seed, static_cast<uint64_t>(y));
 		uint64_t hash = 0;
-		for (int x = 0; x < image.cols; x++)
-		{
+		for (int x = 0; x < image.cols; x++) {
 			hash = x % 2 == 0 ? mixed(row_seed + static_cast<uint64_t>(x)) : hash >> 32;
 			row[x] = cv::saturate_cast<int16_t>(row[x] + (bellShaped(hash) * factor >> 12));
 		}
@@ -41,12 +39,11 @@ void addWhite(cv::Mat& image, double sigma, uint64_t seed)
 cv::Mat octaves(cv::Size size, const std::vector<double>& sigmas, uint64_t seed)
 {
 	std::vector<cv::Size> sizes{size};
-	while (sizes.size() < sigmas.size()) sizes.push_back((sizes.back() + cv::Size(1, 1)) / 2);
+	while (sizes.size() < sigmas.size())
+		sizes.push_back((sizes.back() + cv::Size(1, 1)) / 2);
 	cv::Mat sum = cv::Mat::zeros(sizes.back(), CV_16S);
-	for (size_t n = sigmas.size(); n-- > 0;)
-	{
-		if (sum.size() != sizes[n])
-		{
+	for (size_t n = sigmas.size(); n-- > 0;) {
+		if (sum.size() != sizes[n]) {
 			cv::Mat larger;
 			cv::pyrUp(sum, larger, sum.size() * 2);
 			sum = larger(cv::Rect({0, 0}, sizes[n])).clone();
@@ -62,8 +59,7 @@ std::vector<double> bandSigmas(const cv::Mat& picture, size_t n_octaves)
 	std::vector<double> sigmas;
 	cv::Mat level, coarser, back, mean, sigma;
 	picture.convertTo(level, CV_16S, kUnit);
-	while (sigmas.size() < n_octaves && std::min(level.cols, level.rows) >= 8)
-	{
+	while (sigmas.size() < n_octaves && std::min(level.cols, level.rows) >= 8) {
 		cv::pyrDown(level, coarser);
 		cv::pyrUp(coarser, back, level.size());
 		cv::meanStdDev(level - back, mean, sigma);
@@ -78,11 +74,11 @@ class CStoneField
 {
    public:
 	/** Cells 0 to columns - 1, 0 to rows - 1, and some around them. */
-	CStoneField(int columns, int rows, uint64_t seed) : m_columns(columns + 2 * kMargin), m_rows(rows + 2 * kMargin)
+	CStoneField(int columns, int rows, uint64_t seed)
+		: m_columns(columns + 2 * kMargin), m_rows(rows + 2 * kMargin)
 	{
 		for (int j = 0; j < m_rows; j++)
-			for (int i = 0; i < m_columns; i++)
-			{
+			for (int i = 0; i < m_columns; i++) {
 				const uint64_t h = mixed(seed, static_cast<uint64_t>(i), static_cast<uint64_t>(j));
 				m_centres.push_back(
 					{static_cast<float>(i + unitInterval(h)), static_cast<float>(j + unitInterval(mixed(h))),
@@ -99,10 +95,10 @@ class CStoneField
 		x = std::min(std::max(x + kMargin, 1.0f), static_cast<float>(m_columns) - 1.5f);
 		y = std::min(std::max(y + kMargin, 1.0f), static_cast<float>(m_rows) - 1.5f);
 		float nearest = 1e9f, second = 1e9f, shade = 0;
-		const TCentre* row = &m_centres[static_cast<size_t>((static_cast<int>(y) - 1) * m_columns + static_cast<int>(x) - 1)];
+		const TCentre* row =
+			&m_centres[static_cast<size_t>((static_cast<int>(y) - 1) * m_columns + static_cast<int>(x) - 1)];
 		for (int j = 0; j < 3; j++, row += m_columns)
-			for (int i = 0; i < 3; i++)
-			{
+			for (int i = 0; i < 3; i++) {
 				const float dx = row[i].x - x, dy = row[i].y - y, d = dx * dx + dy * dy;
 				second = std::min(second, std::max(nearest, d));
 				shade = d < nearest ? row[i].shade : shade;
@@ -134,18 +130,22 @@ struct TStones
 };
 void addStones(cv::Mat& image, const TBend& bend, const TStones& stones, uint64_t seed)
 {
-	const float cell = static_cast<float>(1 / stones.width), bent = static_cast<float>(0.3 / kUnit / stones.width);
-	const CStoneField field(static_cast<int>(image.cols / stones.width) + 1, static_cast<int>(image.rows / stones.width) + 1, seed);
-	const float shade = static_cast<float>(kUnit * stones.shade), depth = static_cast<float>(kUnit * stones.crack);
+	const float cell = static_cast<float>(1 / stones.width),
+				bent = static_cast<float>(0.3 / kUnit / stones.width);
+	const CStoneField field(
+		static_cast<int>(image.cols / stones.width) + 1, static_cast<int>(image.rows / stones.width) + 1,
+		seed);
+	const float shade = static_cast<float>(kUnit * stones.shade),
+				depth = static_cast<float>(kUnit * stones.crack);
 	for (int y = 0; y < image.rows; y++)
-		for (int x = 0; x < image.cols; x++)
-		{
+		for (int x = 0; x < image.cols; x++) {
 			const auto s = field.at(
 				static_cast<float>(x) * cell + bent * bend.x.at<int16_t>(y, x),
 				static_cast<float>(y) * cell + bent * bend.y.at<int16_t>(y, x));
 			const float crack = std::max(0.0f, 1 - 6 * s.crack);
 			int16_t& out = image.at<int16_t>(y, x);
-			out = cv::saturate_cast<int16_t>(static_cast<float>(out) + shade * s.shade - depth * crack * crack);
+			out =
+				cv::saturate_cast<int16_t>(static_cast<float>(out) + shade * s.shade - depth * crack * crack);
 		}
 }
 
@@ -157,17 +157,17 @@ struct TDots
 void addDots(cv::Mat& image, const TDots& dots, uint64_t seed)
 {
 	for (int j = 0; j * dots.spacing < image.rows; j++)
-		for (int i = 0; i * dots.spacing < image.cols; i++)
-		{
+		for (int i = 0; i * dots.spacing < image.cols; i++) {
 			const uint64_t h = mixed(seed, static_cast<uint64_t>(i), static_cast<uint64_t>(j));
-			const double cx = (i + unitInterval(h)) * dots.spacing, cy = (j + unitInterval(mixed(h))) * dots.spacing;
+			const double cx = (i + unitInterval(h)) * dots.spacing,
+						 cy = (j + unitInterval(mixed(h))) * dots.spacing;
 			const double radius = dots.radius * (0.5 + unitInterval(mixed(h, 1)));
 			const double height = kUnit * dots.contrast * (2 * unitInterval(mixed(h, 2)) - 1);
-			const cv::Rect box(cv::Point2d(cx - 3 * radius, cy - 3 * radius), cv::Point2d(cx + 3 * radius, cy + 3 * radius));
+			const cv::Rect box(
+				cv::Point2d(cx - 3 * radius, cy - 3 * radius), cv::Point2d(cx + 3 * radius, cy + 3 * radius));
 			const cv::Rect seen = box & cv::Rect({0, 0}, image.size());
 			for (int y = seen.y; y < seen.br().y; y++)
-				for (int x = seen.x; x < seen.br().x; x++)
-				{
+				for (int x = seen.x; x < seen.br().x; x++) {
 					const double d2 = ((x - cx) * (x - cx) + (y - cy) * (y - cy)) / (radius * radius);
 					int16_t& out = image.at<int16_t>(y, x);
 					out = cv::saturate_cast<int16_t>(out + height * std::exp(-d2));
@@ -176,10 +176,12 @@ void addDots(cv::Mat& image, const TDots& dots, uint64_t seed)
 }
 
 /** Sigmas of octaves given by the width of their grains [m]; octaves finer than a pixel are left out. */
-std::vector<double> sigmasByGrain(double resolution, double largest, const std::function<double(double)>& sigma)
+std::vector<double> sigmasByGrain(
+	double resolution, double largest, const std::function<double(double)>& sigma)
 {
 	std::vector<double> sigmas;
-	for (double grain = resolution; grain <= largest; grain *= 2) sigmas.push_back(sigma(grain));
+	for (double grain = resolution; grain <= largest; grain *= 2)
+		sigmas.push_back(sigma(grain));
 	return sigmas;
 }
 

@@ -13,15 +13,14 @@ using Eigen::Vector3d;
 namespace
 {
 constexpr float kRangeStep = 0.005f;  ///< [m]
-constexpr int kRanges = 8192;  ///< Up to 41 m
+constexpr int kRanges = 8192;		  ///< Up to 41 m
 constexpr int kNoiseBits = 12;
 
 /** x with P(normal <= x) = p, by Newton's method on erfc. */
 double normalQuantile(double p)
 {
 	double x = 0;
-	for (int i = 0; i < 60; i++)
-	{
+	for (int i = 0; i < 60; i++) {
 		const double error = 0.5 * std::erfc(-x / std::sqrt(2.0)) - p;
 		const double density = std::exp(-x * x / 2) / std::sqrt(2 * M_PI);
 		x -= std::clamp(error / density, -0.5, 0.5);
@@ -40,12 +39,14 @@ inline float sampled(const cv::Mat& level, double col, double row)
 	return top + fy * (bottom - top);
 }
 
-/** A point of level 0, in pixel areas (column + 0.5: areas, not centres, nest from level to level), on level n,
- * kept inside: beyond the texture its border goes on. */
+/** A point of level 0, in pixel areas (column + 0.5: areas, not centres, nest from level to level), on level
+ * n, kept inside: beyond the texture its border goes on. */
 struct TLevelView
 {
 	TLevelView(const cv::Mat& texture, size_t n)
-		: level(texture), scale(std::ldexp(1.0, -static_cast<int>(n))), last_col(texture.cols - 1.001),
+		: level(texture),
+		  scale(std::ldexp(1.0, -static_cast<int>(n))),
+		  last_col(texture.cols - 1.001),
 		  last_row(texture.rows - 1.001)
 	{
 	}
@@ -64,16 +65,16 @@ struct TLevelView
 struct CFloorRenderer::TRays
 {
 	Vector3d origin, step;
-	double height;	///< Of the camera over the floor [m]
+	double height;		   ///< Of the camera over the floor [m]
 	Eigen::Vector2d foot;  ///< Texture pixel (level 0) straight below the camera
-	const float* length;  ///< Of each ray with unit depth
+	const float* length;   ///< Of each ray with unit depth
 };
 
 /** What is known of one row of the picture, by column. */
 struct CFloorRenderer::TRow
 {
 	explicit TRow(size_t width) : col(width), row(width), range(width), radiance(width) {}
-	std::vector<double> col, row;  ///< On level 0, + 0.5
+	std::vector<double> col, row;		 ///< On level 0, + 0.5
 	std::vector<float> range, radiance;	 ///< [m], [grey levels]
 };
 
@@ -94,19 +95,20 @@ CFloorRenderer::CFloorRenderer(
 
 void CFloorRenderer::buildTables(const TWaterOptions& water, const TCameraOptions& sensor)
 {
-	for (int i = 0; i < kRanges; i++)
-	{
+	for (int i = 0; i < kRanges; i++) {
 		const double range = i * static_cast<double>(kRangeStep);
 		m_direct.push_back(static_cast<float>(std::exp(-water.attenuation * range)));
-		m_veil.push_back(static_cast<float>(water.veiling_light * (1 - std::exp(-water.backscatter * range))));
+		m_veil.push_back(
+			static_cast<float>(water.veiling_light * (1 - std::exp(-water.backscatter * range))));
 	}
 	const int n = 1 << kNoiseBits;
-	for (int i = 0; i < n; i++) m_noise.push_back(static_cast<float>(sensor.noise * normalQuantile((i + 0.5) / n)));
+	for (int i = 0; i < n; i++)
+		m_noise.push_back(static_cast<float>(sensor.noise * normalQuantile((i + 0.5) / n)));
 	const double corner = std::hypot(m_camera.width, m_camera.height) / 2;
 	for (int v = 0; v < m_camera.height; v++)
-		for (int u = 0; u < m_camera.width; u++)
-		{
-			const double off = std::hypot(u - (m_camera.width - 1) / 2.0, v - (m_camera.height - 1) / 2.0) / corner;
+		for (int u = 0; u < m_camera.width; u++) {
+			const double off =
+				std::hypot(u - (m_camera.width - 1) / 2.0, v - (m_camera.height - 1) / 2.0) / corner;
 			m_vignetting.push_back(static_cast<float>(1 - sensor.vignetting * off * off));
 			m_ray_length.push_back(static_cast<float>(
 				Vector3d((u - m_camera.cx) / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1).norm()));
@@ -119,7 +121,9 @@ CFloorRenderer::TLevels CFloorRenderer::chooseLevels(double height) const
 	const double footprint = height / m_camera.fx, last = static_cast<double>(m_floor.levels().size() - 1);
 	const double level = std::clamp(std::log2(footprint / m_floor.resolution()), 0.0, last);
 	const size_t fine = static_cast<size_t>(level);
-	return {fine, std::min(fine + 1, m_floor.levels().size() - 1), static_cast<float>(level - static_cast<double>(fine))};
+	return {
+		fine, std::min(fine + 1, m_floor.levels().size() - 1),
+		static_cast<float>(level - static_cast<double>(fine))};
 }
 
 cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_seed) const
@@ -127,13 +131,17 @@ cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_se
 	const Matrix3d& R = T_map_camera.linear();
 	const Vector3d centre = T_map_camera.translation();
 	// A camera in the floor sees what one a hair above it sees.
-	TRays rays{{}, R.col(0) / m_camera.fx, std::max(m_depth - centre.z(), 1e-3), m_floor.pixelAt(centre.head<2>()), nullptr};
+	TRays rays{
+		{},
+		R.col(0) / m_camera.fx,
+		std::max(m_depth - centre.z(), 1e-3),
+		m_floor.pixelAt(centre.head<2>()),
+		nullptr};
 	const TLevels levels = chooseLevels(rays.height);
 	const size_t width = static_cast<size_t>(m_camera.width);
 	TRow row(width);
 	cv::Mat picture(m_camera.height, m_camera.width, CV_8U);
-	for (int v = 0; v < m_camera.height; v++)
-	{
+	for (int v = 0; v < m_camera.height; v++) {
 		rays.origin = R * Vector3d(-m_camera.cx / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1);
 		rays.length = m_ray_length.data() + static_cast<size_t>(v) * width;
 		intersectRow(rays, row);
@@ -146,8 +154,7 @@ cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_se
 void CFloorRenderer::intersectRow(const TRays& rays, TRow& row) const
 {
 	const double pixels = rays.height / m_floor.resolution();
-	for (int u = 0; u < m_camera.width; u++)
-	{
+	for (int u = 0; u < m_camera.width; u++) {
 		const double north = rays.origin.x() + u * rays.step.x(), east = rays.origin.y() + u * rays.step.y();
 		const double down = rays.origin.z() + u * rays.step.z();
 		const double per_depth = 1 / std::max(down, 1e-3);	// over the horizon: far away
@@ -161,8 +168,7 @@ void CFloorRenderer::sampleRow(const TLevels& levels, TRow& row) const
 {
 	const TLevelView fine(m_floor.levels()[levels.fine], levels.fine);
 	const TLevelView coarse(m_floor.levels()[levels.coarse], levels.coarse);
-	for (int u = 0; u < m_camera.width; u++)
-	{
+	for (int u = 0; u < m_camera.width; u++) {
 		const float a = fine.at(row.col[u], row.row[u]), b = coarse.at(row.col[u], row.row[u]);
 		row.radiance[u] = a + levels.share * (b - a);
 	}
@@ -170,12 +176,12 @@ void CFloorRenderer::sampleRow(const TLevels& levels, TRow& row) const
 
 void CFloorRenderer::develop(int v, const TRow& row, uint64_t noise_seed, uint8_t* out) const
 {
-	const float* vignetting = m_vignetting.data() + static_cast<size_t>(v) * static_cast<size_t>(m_camera.width);
+	const float* vignetting =
+		m_vignetting.data() + static_cast<size_t>(v) * static_cast<size_t>(m_camera.width);
 	const float *direct = m_direct.data(), *veil = m_veil.data(), *noise = m_noise.data();
 	constexpr uint64_t mask = (1 << kNoiseBits) - 1;
 	uint64_t bits = 0;
-	for (int u = 0; u < m_camera.width; u++)
-	{
+	for (int u = 0; u < m_camera.width; u++) {
 		bits = u % 4 == 0 ? mixed(noise_seed + static_cast<uint64_t>(u)) : bits >> 16;
 		const int i = static_cast<int>(std::min(row.range[u] / kRangeStep + 0.5f, kRanges - 1.0f));
 		const float light = (row.radiance[u] * direct[i] + veil[i]) * vignetting[u] + noise[bits & mask];
@@ -184,10 +190,12 @@ void CFloorRenderer::develop(int v, const TRow& row, uint64_t noise_seed, uint8_
 }
 
 TGreyPair renderPair(
-	const CFloorRenderer& renderer, const Isometry3d& T_map_camera, double baseline, uint64_t seed, uint64_t frame)
+	const CFloorRenderer& renderer, const Isometry3d& T_map_camera, double baseline, uint64_t seed,
+	uint64_t frame)
 {
 	const Isometry3d T_map_right = T_map_camera * Eigen::Translation3d(baseline, 0, 0);
 	return {
-		renderer.render(T_map_camera, mixed(seed, frame, 0)), renderer.render(T_map_right, mixed(seed, frame, 1))};
+		renderer.render(T_map_camera, mixed(seed, frame, 0)),
+		renderer.render(T_map_right, mixed(seed, frame, 1))};
 }
 }  // namespace posidonia

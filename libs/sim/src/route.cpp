@@ -46,8 +46,7 @@ void CRoutePlan::appendTurnTo(double heading, double peak_rate)
 void CRoutePlan::appendLegTo(const Vector3d& point, const TRouteOptions& options)
 {
 	const Vector3d way = point - m_end.from;
-	if (way.norm() > 1e-9)
-	{
+	if (way.norm() > 1e-9) {
 		// A vertical leg keeps the heading.
 		if (way.head<2>().norm() > 1e-6) appendTurnTo(std::atan2(way.y(), way.x()), options.turn_rate);
 		TSegment leg = m_end;
@@ -63,7 +62,8 @@ void CRoutePlan::appendLegTo(const Vector3d& point, const TRouteOptions& options
 TPlannedState CRoutePlan::at(double t) const
 {
 	const auto later = std::upper_bound(
-		m_segments.begin(), m_segments.end(), t, [](double time, const TSegment& s) { return time < s.start; });
+		m_segments.begin(), m_segments.end(), t,
+		[](double time, const TSegment& s) { return time < s.start; });
 	const TSegment& s =
 		t >= m_end.start ? m_end : (later == m_segments.begin() ? m_segments.front() : *std::prev(later));
 	const TProfileValue along = s.leg.at(t - s.start);

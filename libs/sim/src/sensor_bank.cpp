@@ -26,7 +26,8 @@ class CPairAnnouncer
 	{
 		const uint64_t frame = m_frame++;
 		return makeStereo(
-			m_label, stamp, m_spec, pictureName(m_label, frame, "left"), pictureName(m_label, frame, "right"));
+			m_label, stamp, m_spec, pictureName(m_label, frame, "left"),
+			pictureName(m_label, frame, "right"));
 	}
 
    private:
@@ -36,12 +37,15 @@ class CPairAnnouncer
 };
 }  // namespace
 
-CSensorBank::CSensorBank(const TSimulationOptions& o, const TSensorSuite& nominal) : m_start_time(o.run.start_time)
+CSensorBank::CSensorBank(const TSimulationOptions& o, const TSensorSuite& nominal)
+	: m_start_time(o.run.start_time)
 {
 	const uint64_t seed = o.run.seed;
 	const auto errors = drawnSigns(o.calibration_error, seed);
-	add(o.run.imu, nominal.imu, [&](auto& l, auto& s) { return std::make_shared<CSimulatedImu>(l, s, o.imu, seed); });
-	add(o.run.ahrs, nominal.ahrs, [&](auto& l, auto& s) { return std::make_shared<CSimulatedAhrs>(l, s, o.ahrs, seed); });
+	add(o.run.imu, nominal.imu,
+		[&](auto& l, auto& s) { return std::make_shared<CSimulatedImu>(l, s, o.imu, seed); });
+	add(o.run.ahrs, nominal.ahrs,
+		[&](auto& l, auto& s) { return std::make_shared<CSimulatedAhrs>(l, s, o.ahrs, seed); });
 	add(o.run.dvl, nominal.dvl, [&](auto& l, auto& s) {
 		return std::make_shared<CSimulatedDvl>(l, s, o.dvl, errors, o.floor.depth, seed);
 	});
@@ -49,9 +53,11 @@ CSensorBank::CSensorBank(const TSimulationOptions& o, const TSensorSuite& nomina
 		[&](auto& l, auto& s) { return std::make_shared<CSimulatedPressure>(l, s, seed); });
 	add(o.run.gps, nominal.gps,
 		[&](auto& l, auto& s) { return std::make_shared<CSimulatedGps>(l, s, o.gps, o.world, seed); });
-	add(o.run.stereo, nominal.stereo, [&](auto& l, auto& s) { return std::make_shared<CPairAnnouncer>(l, s); });
+	add(o.run.stereo, nominal.stereo,
+		[&](auto& l, auto& s) { return std::make_shared<CPairAnnouncer>(l, s); });
 	if (m_clocks.empty())
-		throw CError("[Simulation]", "every sensor is switched off", "switch on at least one, e.g. imu = true");
+		throw CError(
+			"[Simulation]", "every sensor is switched off", "switch on at least one, e.g. imu = true");
 }
 
 template <class SPECS, class MAKE>
@@ -78,7 +84,10 @@ const CSensorBank::TClock& CSensorBank::due() const
 	});
 }
 
-double CSensorBank::nextTime() const { return stampOfTick(due()) - m_start_time; }
+double CSensorBank::nextTime() const
+{
+	return stampOfTick(due()) - m_start_time;
+}
 
 CObservation::Ptr CSensorBank::measure(const TVehicleState& state)
 {

@@ -18,10 +18,13 @@ using mrpt::obs::CObservationStereoImages;
 namespace
 {
 /** The pictures of one pair as PNG files; returns their bytes. */
-uint64_t writePictures(const TGreyPair& pictures, const CObservationStereoImages& pair, const std::string& folder)
+uint64_t writePictures(
+	const TGreyPair& pictures, const CObservationStereoImages& pair, const std::string& folder)
 {
-	// Sensor noise does not compress by repetition: entropy coding alone is as small and several times faster.
-	const std::vector<int> fast{cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY};
+	// Sensor noise does not compress by repetition: entropy coding alone is as small and several times
+	// faster.
+	const std::vector<int> fast{
+		cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY};
 	uint64_t bytes = 0;
 	for (const auto& [picture, image] :
 		 {std::pair(&pictures.left, &pair.imageLeft), std::pair(&pictures.right, &pair.imageRight)})
@@ -44,21 +47,22 @@ void inParallel(size_t n, int threads, const std::function<void(size_t)>& job)
 	std::mutex mutex;
 	std::exception_ptr problem;
 	const auto work = [&] {
-		for (size_t i = next++; i < n; i = next++) try
-			{
+		for (size_t i = next++; i < n; i = next++)
+			try {
 				job(i);
 			}
-			catch (...)
-			{
+			catch (...) {
 				const std::lock_guard lock(mutex);
 				if (!problem) problem = std::current_exception();
 				next = n;
 			}
 	};
 	std::vector<std::thread> pool;
-	for (int i = 1; i < threads; i++) pool.emplace_back(work);
+	for (int i = 1; i < threads; i++)
+		pool.emplace_back(work);
 	work();
-	for (auto& thread : pool) thread.join();
+	for (auto& thread : pool)
+		thread.join();
 	if (problem) std::rethrow_exception(problem);
 }
 }  // namespace
@@ -67,8 +71,7 @@ TSimulationSummary CSurveySimulator::run(const std::string& prefix, const progre
 {
 	registerObservations();
 	const std::string rawlog = prefix + ".rawlog", images = imagesFolderOf(rawlog);
-	if (m_rig)
-	{
+	if (m_rig) {
 		std::filesystem::remove_all(images);  // no picture of an earlier run stays behind
 		makeFolder(images);
 	}
@@ -78,10 +81,10 @@ TSimulationSummary CSurveySimulator::run(const std::string& prefix, const progre
 	std::vector<TSimulatedObservation> pairs;
 	CRawlogWriter writer(rawlog);
 	stream([&](const TSimulatedObservation& o) {
-		if (o.frame)
-		{
+		if (o.frame) {
 			if (!truth.empty())
-				summary.path_length += (o.truth.T_map_body.translation() - truth.back().T.translation()).norm();
+				summary.path_length +=
+					(o.truth.T_map_body.translation() - truth.back().T.translation()).norm();
 			truth.push_back({stampOf(*o.observation), o.truth.T_map_body});
 			if (o.kept) pairs.push_back(o);
 		}
@@ -110,13 +113,12 @@ void writeTumTrajectory(const std::string& path, const TTrajectory& trajectory)
 {
 	writeFileWhole(path, [&](std::ostream& out) {
 		char line[256];
-		for (const auto& pose : trajectory)
-		{
+		for (const auto& pose : trajectory) {
 			const Eigen::Vector3d t = pose.T.translation();
 			const Eigen::Quaterniond q(pose.T.linear());
 			std::snprintf(
-				line, sizeof line, "%.9f %.12f %.12f %.12f %.12f %.12f %.12f %.12f\n", pose.stamp, t.x(), t.y(), t.z(),
-				q.x(), q.y(), q.z(), q.w());
+				line, sizeof line, "%.9f %.12f %.12f %.12f %.12f %.12f %.12f %.12f\n", pose.stamp, t.x(),
+				t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
 			out << line;
 		}
 	});

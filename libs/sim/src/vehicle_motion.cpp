@@ -12,8 +12,7 @@ CRipple::CRipple(const TMotionOptions& o, uint64_t seed) : m_fade_in(o.fade_in)
 	const double largest[CHANNELS] = {o.sway, o.sway, o.heave, o.roll, o.pitch, o.yaw};
 	CNoise noise(seedOf(seed, "motion"));
 	for (int channel = 0; channel < CHANNELS; channel++)
-		for (int i = 0; i < kWaves; i++)
-		{
+		for (int i = 0; i < kWaves; i++) {
 			// Periods about 0.6, 1 and 1.7 of the middle one, never in a simple ratio.
 			const double period = o.period * std::pow(1.7, i - 1) * noise.uniform(0.85, 1.15);
 			m_waves[channel][i] = {largest[channel] / kWaves, 2 * M_PI / period, noise.uniform(0, 2 * M_PI)};
@@ -23,8 +22,7 @@ CRipple::CRipple(const TMotionOptions& o, uint64_t seed) : m_fade_in(o.fade_in)
 TProfileValue CRipple::at(EChannel channel, double t) const
 {
 	TProfileValue sum;
-	for (const TWave& w : m_waves[channel])
-	{
+	for (const TWave& w : m_waves[channel]) {
 		const double s = w.amplitude * std::sin(w.frequency * t + w.phase);
 		const double c = w.amplitude * std::cos(w.frequency * t + w.phase);
 		sum.value += s;
@@ -44,8 +42,10 @@ CVehicleMotion::CVehicleMotion(const TRouteOptions& route, const TMotionOptions&
 
 namespace
 {
-/** Body rates of yaw-pitch-roll with their first two derivatives (Fossen 2011, eq. 2.26, and its derivative). */
-void setAttitude(const TProfileValue& yaw, const TProfileValue& pitch, const TProfileValue& roll, TVehicleState& s)
+/** Body rates of yaw-pitch-roll with their first two derivatives (Fossen 2011, eq. 2.26, and its derivative).
+ */
+void setAttitude(
+	const TProfileValue& yaw, const TProfileValue& pitch, const TProfileValue& roll, TVehicleState& s)
 {
 	const double sr = std::sin(roll.value), cr = std::cos(roll.value);
 	const double sp = std::sin(pitch.value), cp = std::cos(pitch.value);
@@ -64,13 +64,13 @@ void setAttitude(const TProfileValue& yaw, const TProfileValue& pitch, const TPr
 TVehicleState CVehicleMotion::at(double t) const
 {
 	TPlannedState plan = m_plan.at(t);
-	for (int i = 0; i < 3; i++)
-	{
+	for (int i = 0; i < 3; i++) {
 		const TProfileValue r = m_ripple.at(static_cast<CRipple::EChannel>(i), t);
 		plan.position[i] += r.value, plan.velocity[i] += r.rate, plan.acceleration[i] += r.acceleration;
 	}
 	TProfileValue yaw = m_ripple.at(CRipple::YAW, t);
-	yaw.value += plan.heading.value, yaw.rate += plan.heading.rate, yaw.acceleration += plan.heading.acceleration;
+	yaw.value += plan.heading.value, yaw.rate += plan.heading.rate,
+		yaw.acceleration += plan.heading.acceleration;
 
 	TVehicleState state;
 	state.t = t;

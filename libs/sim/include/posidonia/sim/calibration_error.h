@@ -4,7 +4,8 @@
 
 namespace posidonia
 {
-/** Section [CalibrationError]: by how much the world's rig differs from what the rawlog says. All zero by default. */
+/** Section [CalibrationError]: by how much the world's rig differs from what the rawlog says. All zero by
+ * default. */
 struct TCalibrationErrorOptions
 {
 	double focal_length{0}, baseline{0};
@@ -21,7 +22,8 @@ struct TCalibrationErrorOptions
 		v.degrees("camera_yaw", camera_yaw, between(-45, 45), "True mounting turned about body down [deg]");
 		v.degrees("camera_pitch", camera_pitch, between(-45, 45), "... about body starboard [deg]");
 		v.degrees("camera_roll", camera_roll, between(-45, 45), "... about body forward [deg]");
-		v.number("camera_clock", camera_clock, between(-10, 10), "A picture shows the pose at stamp + this [s]");
+		v.number(
+			"camera_clock", camera_clock, between(-10, 10), "A picture shows the pose at stamp + this [s]");
 		v.degrees("dvl_yaw", dvl_yaw, between(-45, 45), "True mounting turned about body down [deg]");
 		v.degrees("dvl_pitch", dvl_pitch, between(-45, 45), "... about body starboard [deg]");
 		v.degrees("dvl_roll", dvl_roll, between(-45, 45), "... about body forward [deg]");

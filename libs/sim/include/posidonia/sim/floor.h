@@ -25,12 +25,15 @@ struct TFloorOptions
 		v.choice("texture", texture, {"photo", "sand", "rock", "tiled"}, "What the floor looks like");
 		v.text("image", image, "Picture of photo and tiled, from the ini's folder or absolute");
 		v.number("image_width", image_width, above(0), "The picture's width, laid along east [m]");
-		v.number("blend", blend, above(0), "Width of the picture's border that fades into the procedural floor [m]");
+		v.number(
+			"blend", blend, above(0),
+			"Width of the picture's border that fades into the procedural floor [m]");
 		v.number("extent_north", extent_north, between(1, 400), "Floor about the origin, along north [m]");
 		v.number("extent_east", extent_east, between(1, 400), "Floor about the origin, along east [m]");
 		v.number("resolution", resolution, between(0.0005, 1), "Size of a texture pixel [m]");
 		v.number("brightness", brightness, between(0, 255), "Mean grey of sand and rock");
-		v.number("contrast", contrast, atLeast(0), "Factor on the grey contrast of any texture about its mean");
+		v.number(
+			"contrast", contrast, atLeast(0), "Factor on the grey contrast of any texture about its mean");
 	}
 };
 
@@ -40,7 +43,8 @@ struct TFloorOptions
 class CFloorTexture
 {
    public:
-	/** Generates the texture of `options`, the same for the same seed. Throws CError when the picture can't be read. */
+	/** Generates the texture of `options`, the same for the same seed. Throws CError when the picture can't
+	 * be read. */
 	CFloorTexture(const TFloorOptions& options, uint64_t seed);
 	/** A given level 0 (CV_8UC1); rows and columns are cut to a multiple of 2^(levels-1). */
 	CFloorTexture(const cv::Mat& level0, double resolution);
@@ -56,12 +60,14 @@ class CFloorTexture
 	std::vector<cv::Mat> m_levels;
 };
 
-/** `image` as an existing path: absolute, or found below one of `folders`. Throws CError that lists where it looked. */
+/** `image` as an existing path: absolute, or found below one of `folders`. Throws CError that lists where it
+ * looked. */
 std::string findImage(const std::string& image, const std::vector<std::string>& folders);
 
 /** Feature-poor sand and high-contrast rock, CV_8UC1; pixels are `resolution` [m] wide. */
 cv::Mat proceduralSand(cv::Size size, double resolution, uint64_t seed);
 cv::Mat proceduralRock(cv::Size size, double resolution, uint64_t seed);
-/** A floor of `size` with the spectrum (contrast by octave) and mean of `sample`, without any of its pixels. CV_8UC1. */
+/** A floor of `size` with the spectrum (contrast by octave) and mean of `sample`, without any of its pixels.
+ * CV_8UC1. */
 cv::Mat proceduralLike(const cv::Mat& sample, cv::Size size, uint64_t seed);
 }  // namespace posidonia

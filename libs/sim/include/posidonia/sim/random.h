@@ -23,13 +23,17 @@ uint64_t mixed(uint64_t first, uint64_t second, REST... rest)
 }
 
 /** Number in [0, 1) of a hash. */
-inline double unitInterval(uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
+inline double unitInterval(uint64_t hash)
+{
+	return static_cast<double>(hash >> 11) * 0x1.0p-53;
+}
 
 /** Own seed of a part called `name`: switching one part off leaves the others' numbers alone. */
 inline uint64_t seedOf(uint64_t seed, const std::string& name)
 {
 	uint64_t h = mixed(seed);
-	for (const char c : name) h = mixed(h ^ static_cast<unsigned char>(c));
+	for (const char c : name)
+		h = mixed(h ^ static_cast<unsigned char>(c));
 	return h;
 }
 

@@ -5,8 +5,9 @@
 
 namespace posidonia
 {
-/** Section [Water]: first-order image formation, grey: I = J exp(-attenuation r) + B (1 - exp(-backscatter r)) over
- * the range r of each pixel (uniform limit of Jaffe-McGlamery; two coefficients as in Akkaynak and Treibitz 2018). */
+/** Section [Water]: first-order image formation, grey: I = J exp(-attenuation r) + B (1 - exp(-backscatter
+ * r)) over the range r of each pixel (uniform limit of Jaffe-McGlamery; two coefficients as in Akkaynak and
+ * Treibitz 2018). */
 struct TWaterOptions
 {
 	double attenuation{0.15}, backscatter{0.15}, veiling_light{75};
@@ -33,8 +34,8 @@ struct TCameraOptions
 	}
 };
 
-/** Renders the flat floor as the true cameras see it: exact pin-hole, pixel centres at whole numbers. Const and
- * thread-safe; a picture depends on its arguments only. */
+/** Renders the flat floor as the true cameras see it: exact pin-hole, pixel centres at whole numbers. Const
+ * and thread-safe; a picture depends on its arguments only. */
 class CFloorRenderer
 {
    public:
@@ -59,8 +60,8 @@ class CFloorRenderer
 	const CFloorTexture& m_floor;
 	double m_depth;
 	TStereoCamera m_camera;
-	std::vector<float> m_direct, m_veil;  ///< By range, kRangeStep apart
-	std::vector<float> m_noise;	 ///< Quantiles of the pixel noise
+	std::vector<float> m_direct, m_veil;			///< By range, kRangeStep apart
+	std::vector<float> m_noise;						///< Quantiles of the pixel noise
 	std::vector<float> m_vignetting, m_ray_length;	///< By pixel
 };
 

@@ -13,9 +13,8 @@ struct TRouteOptions
 {
 	std::vector<double> start{0, 0, 0, 90};
 	/** Table 1 of the paper: 18 set points. */
-	std::vector<double> way_points{0, 0,  0,  12, 5,  12,  5,  6,	-5, 6,	-5, 0,	5, 0,  5,  -6,
-								   -5, -6, -5, -12, 5, -12, 5, 12, 0,  12, 0,  -12, -5, -12, -5, 12,
-								   0,  12, 0,  0};
+	std::vector<double> way_points{0,  0,	0, 12,	5, 12, 5, 6,  -5, 6,   -5, 0,	5,	0,	5, -6, -5, -6,
+								   -5, -12, 5, -12, 5, 12, 0, 12, 0,  -12, -5, -12, -5, 12, 0, 12, 0,  0};
 	double depth{3.5}, speed{0.3}, acceleration{0.15};
 	double turn_rate{20 * M_PI / 180};
 	double dwell{2};
@@ -24,7 +23,8 @@ struct TRouteOptions
 	void visit(VISITOR& v)
 	{
 		v.numbers("start", start, 4, anyNumber(), "Body at the start: north east down [m] heading [deg]");
-		v.numbers("way_points", way_points, 0, anyNumber(), "North east [m] of each set point (default: Table 1)");
+		v.numbers(
+			"way_points", way_points, 0, anyNumber(), "North east [m] of each set point (default: Table 1)");
 		v.number("depth", depth, anyNumber(), "Depth of the set points [m] (paper: 3.5)");
 		v.number("speed", speed, above(0), "Speed on the legs [m/s] (paper: 0.3)");
 		v.number("acceleration", acceleration, above(0), "Peak acceleration at the ends of a leg [m/s^2]");
@@ -37,7 +37,7 @@ struct TRouteOptions
 struct TPlannedState
 {
 	Eigen::Vector3d position, velocity, acceleration;  ///< map [m], [m/s], [m/s^2]
-	TProfileValue heading;	///< [rad], [rad/s], [rad/s^2]
+	TProfileValue heading;							   ///< [rad], [rad/s], [rad/s^2]
 };
 
 /** Rest at the start, dive to the first set point, then turn on the spot and leg, set point by set point. */
@@ -50,7 +50,7 @@ class CRoutePlan
 	/** The plan at t [s] from the start, in closed form; at rest before 0 and after duration(). */
 	TPlannedState at(double t) const;
 	double duration() const { return m_end.start; }	 ///< [s]
-	double length() const { return m_length; }	///< Travelled distance [m], dive included
+	double length() const { return m_length; }		 ///< Travelled distance [m], dive included
 	/** Start and set points [m, map] with the times [s] at which the vehicle rests there. */
 	struct TArrival
 	{

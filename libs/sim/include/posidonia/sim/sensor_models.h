@@ -9,8 +9,8 @@
 #include <posidonia/sim/random.h>
 #include <posidonia/sim/vehicle_motion.h>
 
-/** One class a sensor: the law of the instrument, its noise and nothing else. `measure` is called once for each
- * instant in order of time (random walks advance by 1/rate) with the true state; `stamp` is UTC [s]. */
+/** One class a sensor: the law of the instrument, its noise and nothing else. `measure` is called once for
+ * each instant in order of time (random walks advance by 1/rate) with the true state; `stamp` is UTC [s]. */
 namespace posidonia
 {
 /** Section [SimulatedImu]. */
@@ -56,7 +56,9 @@ struct TSimulatedGpsOptions
 	template <class VISITOR>
 	void visit(VISITOR& v)
 	{
-		v.number("max_depth", max_depth, anyNumber(), "Fixes only while the body is above this depth [m] (COLA2: 1)");
+		v.number(
+			"max_depth", max_depth, anyNumber(),
+			"Fixes only while the body is above this depth [m] (COLA2: 1)");
 		v.number("hdop", hdop, above(0), "HDOP that the receiver states");
 	}
 };
@@ -64,7 +66,8 @@ struct TSimulatedGpsOptions
 class CSimulatedImu
 {
    public:
-	CSimulatedImu(const std::string& label, const TImuSpec& spec, const TSimulatedImuOptions& options, uint64_t seed);
+	CSimulatedImu(
+		const std::string& label, const TImuSpec& spec, const TSimulatedImuOptions& options, uint64_t seed);
 	mrpt::obs::CObservation::Ptr measure(const TVehicleState& state, double stamp);
 
    private:
@@ -91,8 +94,9 @@ class CSimulatedAhrs
 	CNoise m_noise;
 };
 
-/** The four unit beam vectors (columns) in the instrument's frame: azimuths 0, 90, 180, 270 deg from its x axis
- * towards its y axis, `beam_angle` off the half of its z axis that looks down in the nominal mounting. */
+/** The four unit beam vectors (columns) in the instrument's frame: azimuths 0, 90, 180, 270 deg from its x
+ * axis towards its y axis, `beam_angle` off the half of its z axis that looks down in the nominal mounting.
+ */
 Eigen::Matrix<double, 3, 4> dvlBeams(const TDvlSpec& nominal);
 
 class CSimulatedDvl

@@ -23,7 +23,9 @@ struct TRunOptions
 		v.number("start_time", start_time, atLeast(0), "UTC of the start [s] (default: 2015-01-01)");
 		v.number("duration", duration, atLeast(0), "Length of the log [s]; 0: the whole route");
 		v.integer("threads", threads, between(1, 64), "Rendering threads; the bytes do not depend on it");
-		v.choice("save_images", save_images, {"all", "nodes"}, "Keep every stereo pair, or one each node_distance");
+		v.choice(
+			"save_images", save_images, {"all", "nodes"},
+			"Keep every stereo pair, or one each node_distance");
 		v.number("node_distance", node_distance, above(0), "True travel between kept pairs [m] (paper: 0.5)");
 		v.flag("imu", imu, "Simulate the IMU");
 		v.flag("ahrs", ahrs, "Simulate the AHRS");

@@ -15,14 +15,14 @@ TProfileValue minimumJerkStep(double t, double duration);
 /** Peak of the step's rate times its duration: max ds/dx. */
 inline constexpr double kMinimumJerkPeak = 1.875;
 
-/** A straight leg from rest to rest: the speed rises by a minimum-jerk step, cruises and falls in the same way,
- * so that position has continuous derivatives up to the third. */
+/** A straight leg from rest to rest: the speed rises by a minimum-jerk step, cruises and falls in the same
+ * way, so that position has continuous derivatives up to the third. */
 class CLegProfile
 {
    public:
 	CLegProfile() = default;
-	/** Length [m] >= 0, cruise speed [m/s], peak acceleration [m/s^2]. A leg too short to reach `speed` has its
-	 * own lower top speed. */
+	/** Length [m] >= 0, cruise speed [m/s], peak acceleration [m/s^2]. A leg too short to reach `speed` has
+	 * its own lower top speed. */
 	CLegProfile(double length, double speed, double acceleration);
 
 	double duration() const { return 2 * m_ramp + m_cruise; }

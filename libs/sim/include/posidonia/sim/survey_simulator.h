@@ -31,13 +31,14 @@ struct TSimulationSummary
 class CSurveySimulator
 {
    public:
-	/** Throws CError when the options can't be simulated (route off the floor's texture, no such picture ...). */
+	/** Throws CError when the options can't be simulated (route off the floor's texture, no such picture
+	 * ...). */
 	CSurveySimulator(const TSimulationOptions& options, const TSensorSuite& nominal);
 	~CSurveySimulator();
 
 	using progress_t = std::function<void(double fraction)>;
-	/** Writes <prefix>.rawlog, <prefix>_Images/, <prefix>.sensors.ini and <prefix>.gt.tum. `progress` may be empty; it is
-	 * called from rendering threads, one at a time. */
+	/** Writes <prefix>.rawlog, <prefix>_Images/, <prefix>.sensors.ini and <prefix>.gt.tum. `progress` may be
+	 * empty; it is called from rendering threads, one at a time. */
 	TSimulationSummary run(const std::string& prefix, const progress_t& progress = {});
 
 	/** Every observation in order of its stamp, kept or not; starts anew at each call. */
@@ -60,6 +61,7 @@ class CSurveySimulator
 	std::unique_ptr<TRig> m_rig;
 };
 
-/** Writes a trajectory as TUM lines `t x y z qx qy qz qw`, 9 decimals of time and 12 of the rest; whole or not at all. */
+/** Writes a trajectory as TUM lines `t x y z qx qy qz qw`, 9 decimals of time and 12 of the rest; whole or
+ * not at all. */
 void writeTumTrajectory(const std::string& path, const TTrajectory& trajectory);
 }  // namespace posidonia

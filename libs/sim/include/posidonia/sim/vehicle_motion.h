@@ -11,10 +11,10 @@ struct TVehicleState
 {
 	double t{0};  ///< From the start [s]
 	Eigen::Isometry3d T_map_body{Eigen::Isometry3d::Identity()};
-	Eigen::Vector3d v_map{0, 0, 0};	 ///< [m/s]
-	Eigen::Vector3d v_body{0, 0, 0};  ///< The same velocity in body axes [m/s]
+	Eigen::Vector3d v_map{0, 0, 0};		  ///< [m/s]
+	Eigen::Vector3d v_body{0, 0, 0};	  ///< The same velocity in body axes [m/s]
 	Eigen::Vector3d omega_body{0, 0, 0};  ///< Body's angular rate in body axes [rad/s]
-	Eigen::Vector3d a_map{0, 0, 0};	 ///< [m/s^2]
+	Eigen::Vector3d a_map{0, 0, 0};		  ///< [m/s^2]
 	Eigen::Vector3d alpha_body{0, 0, 0};  ///< d omega_body / dt [rad/s^2]
 };
 
@@ -42,7 +42,16 @@ struct TMotionOptions
 class CRipple
 {
    public:
-	enum EChannel { NORTH, EAST, DOWN, ROLL, PITCH, YAW, CHANNELS };
+	enum EChannel
+	{
+		NORTH,
+		EAST,
+		DOWN,
+		ROLL,
+		PITCH,
+		YAW,
+		CHANNELS
+	};
 	CRipple(const TMotionOptions& options, uint64_t seed);
 	/** Excursion [m] or [rad] with derivatives. */
 	TProfileValue at(EChannel channel, double t) const;
