@@ -52,7 +52,7 @@ struct TSequentialOptions
 struct TRoiOptions
 {
 	double radius{4.0};	 ///< [m]
-	int max_candidates{8};
+	int max_candidates{6};
 	int min_node_gap{5};
 	double min_overlap{0.2};
 
