@@ -27,8 +27,9 @@ TEST(DatasetApp, WritesARawlogWithPicturesAndSensors)
 	const CStereoImageLoader loader(reader.path());
 	while (const auto o = reader.next()) {
 		counts[o->sensorLabel]++;
-		if (const auto* pair = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(o.get()))
+		if (const auto* pair = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(o.get())) {
 			EXPECT_FALSE(loader.load(*pair).right.empty());
+		}
 	}
 	EXPECT_EQ(counts, report.observations);
 	EXPECT_EQ(counts.at("IMU"), 20u);

@@ -37,21 +37,41 @@ Eigen::Vector3d someError(int i)
 	return {0.01 * i, 0.3 - 0.02 * i, 0.005 * i * i};
 }
 
-TMetrics eval(std::vector<std::string> args)
+/** What is printed while it lives; ends the capture in an error too. */
+class CCapturedOutput
 {
+   public:
+	CCapturedOutput() { ::testing::internal::CaptureStdout(); }
+	~CCapturedOutput()
+	{
+		if (!m_taken) ::testing::internal::GetCapturedStdout();
+	}
+	CCapturedOutput(const CCapturedOutput&) = delete;
+	CCapturedOutput& operator=(const CCapturedOutput&) = delete;
+	std::string text()
+	{
+		m_taken = true;
+		return ::testing::internal::GetCapturedStdout();
+	}
+
+   private:
+	bool m_taken{false};
+};
+
+TMetrics eval(const std::vector<std::string>& args)
+{
+	const CCapturedOutput captured;
 	CEvalApp app;
-	::testing::internal::CaptureStdout();
 	runApp(app, args);
-	::testing::internal::GetCapturedStdout();
 	return app.results().metrics;
 }
 
-std::string printed(std::vector<std::string> args)
+std::string printed(const std::vector<std::string>& args)
 {
+	CCapturedOutput captured;
 	CEvalApp app;
-	::testing::internal::CaptureStdout();
 	runApp(app, args);
-	return ::testing::internal::GetCapturedStdout();
+	return captured.text();
 }
 }  // namespace
 
