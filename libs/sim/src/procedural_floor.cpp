@@ -149,29 +149,33 @@ void addStones(cv::Mat& image, const TBend& bend, const TStones& stones, uint64_
 		}
 }
 
-/** One soft dot in each cell of a grid. */
+/** Adds a Gaussian dot; `height` in units of the image. */
+void addDot(cv::Mat& image, const cv::Point2d& centre, double radius, double height)
+{
+	const cv::Point2d reach(3 * radius, 3 * radius);
+	const cv::Rect seen = cv::Rect(centre - reach, centre + reach) & cv::Rect({0, 0}, image.size());
+	for (int y = seen.y; y < seen.br().y; y++)
+		for (int x = seen.x; x < seen.br().x; x++) {
+			const cv::Point2d off = (cv::Point2d(x, y) - centre) / radius;
+			int16_t& out = image.at<int16_t>(y, x);
+			out = cv::saturate_cast<int16_t>(out + height * std::exp(-off.ddot(off)));
+		}
+}
+
+/** Bright and dark dots, one in each cell of a grid. */
 struct TDots
 {
-	double spacing, radius, contrast;  ///< [px], [px] on average, largest [grey levels], bright or dark
+	double spacing, radius, contrast;  ///< [px], mean [px], largest [grey levels]
 };
 void addDots(cv::Mat& image, const TDots& dots, uint64_t seed)
 {
 	for (int j = 0; j * dots.spacing < image.rows; j++)
 		for (int i = 0; i * dots.spacing < image.cols; i++) {
 			const uint64_t h = mixed(seed, static_cast<uint64_t>(i), static_cast<uint64_t>(j));
-			const double cx = (i + unitInterval(h)) * dots.spacing,
-						 cy = (j + unitInterval(mixed(h))) * dots.spacing;
-			const double radius = dots.radius * (0.5 + unitInterval(mixed(h, 1)));
-			const double height = kUnit * dots.contrast * (2 * unitInterval(mixed(h, 2)) - 1);
-			const cv::Rect box(
-				cv::Point2d(cx - 3 * radius, cy - 3 * radius), cv::Point2d(cx + 3 * radius, cy + 3 * radius));
-			const cv::Rect seen = box & cv::Rect({0, 0}, image.size());
-			for (int y = seen.y; y < seen.br().y; y++)
-				for (int x = seen.x; x < seen.br().x; x++) {
-					const double d2 = ((x - cx) * (x - cx) + (y - cy) * (y - cy)) / (radius * radius);
-					int16_t& out = image.at<int16_t>(y, x);
-					out = cv::saturate_cast<int16_t>(out + height * std::exp(-d2));
-				}
+			const cv::Point2d centre(i + unitInterval(h), j + unitInterval(mixed(h)));
+			addDot(
+				image, centre * dots.spacing, dots.radius * (0.5 + unitInterval(mixed(h, 1))),
+				kUnit * dots.contrast * (2 * unitInterval(mixed(h, 2)) - 1));
 		}
 }
 

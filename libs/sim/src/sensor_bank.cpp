@@ -77,21 +77,21 @@ double CSensorBank::stampOfTick(const TClock& clock) const
 	return mrpt::Clock::toDouble(stampFrom(m_start_time + static_cast<double>(clock.tick) / clock.rate));
 }
 
-const CSensorBank::TClock& CSensorBank::due() const
+size_t CSensorBank::due() const
 {
-	return *std::min_element(m_clocks.begin(), m_clocks.end(), [this](const TClock& a, const TClock& b) {
-		return stampOfTick(a) < stampOfTick(b);	 // the first of equals
-	});
+	const auto earlier = [this](const TClock& a, const TClock& b) { return stampOfTick(a) < stampOfTick(b); };
+	const auto first = std::min_element(m_clocks.begin(), m_clocks.end(), earlier);	 // the first of equals
+	return static_cast<size_t>(first - m_clocks.begin());
 }
 
 double CSensorBank::nextTime() const
 {
-	return stampOfTick(due()) - m_start_time;
+	return stampOfTick(m_clocks[due()]) - m_start_time;
 }
 
 CObservation::Ptr CSensorBank::measure(const TVehicleState& state)
 {
-	TClock& clock = const_cast<TClock&>(due());
+	TClock& clock = m_clocks[due()];
 	const double stamp = stampOfTick(clock);
 	clock.tick++;
 	return clock.measure(state, stamp);

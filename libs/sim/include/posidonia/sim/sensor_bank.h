@@ -35,7 +35,7 @@ class CSensorBank
 	template <class SPECS, class MAKE>
 	void add(bool enabled, const SPECS& specs, MAKE&& make);
 	double stampOfTick(const TClock& clock) const;
-	const TClock& due() const;
+	size_t due() const;	 ///< Index of the clock that is next
 
 	double m_start_time;
 	std::vector<TClock> m_clocks;
