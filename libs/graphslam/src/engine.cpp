@@ -39,7 +39,6 @@ TSlamGraph CStereoGraphSlamEngine::dijkstraGraph() const
 {
 	TSlamGraph graph = m_graph;
 	const mrpt::poses::CPose3D root_pose = graph.nodes.at(graph.root);
-	graph.nodes.clear();
 	graph.dijkstra_nodes_estimate();
 	for (auto& [id, pose] : graph.nodes) pose = TSlamGraph::global_pose_t(root_pose + pose);
 	return graph;
