@@ -1,3 +1,6 @@
 #include <posidonia/apps/CEvalApp.h>
 
-int main(int argc, char** argv) { return posidonia::runApp<posidonia::CEvalApp>(argc, argv); }
+int main(int argc, char** argv)
+{
+	return posidonia::runApp<posidonia::CEvalApp>(argc, argv);
+}

@@ -1,3 +1,6 @@
 #include <posidonia/apps/CGraphSlamApp.h>
 
-int main(int argc, char** argv) { return posidonia::runApp<posidonia::CGraphSlamApp>(argc, argv); }
+int main(int argc, char** argv)
+{
+	return posidonia::runApp<posidonia::CGraphSlamApp>(argc, argv);
+}

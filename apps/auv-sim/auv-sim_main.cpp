@@ -1,3 +1,6 @@
 #include <posidonia/apps/CSimApp.h>
 
-int main(int argc, char** argv) { return posidonia::runApp<posidonia::CSimApp>(argc, argv); }
+int main(int argc, char** argv)
+{
+	return posidonia::runApp<posidonia::CSimApp>(argc, argv);
+}

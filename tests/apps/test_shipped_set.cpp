@@ -37,8 +37,7 @@ TEST(ShippedSet, TheSimulatorMakesTheShippedLogAgain)
 	CTempFolder folder;
 	CSimApp app;
 	runApp(app, {"-c", kIni, "-o", folder / "data", "--name", "square"});
-	for (const auto& entry : fs::directory_iterator(kSource + "/rawlogs/square/square_Images"))
-	{
+	for (const auto& entry : fs::directory_iterator(kSource + "/rawlogs/square/square_Images")) {
 		const std::string name = entry.path().filename().string();
 		EXPECT_TRUE(fs::exists(folder / ("data/square_Images/" + name))) << name;
 	}
@@ -52,8 +51,7 @@ TEST(ShippedSet, TheSimulatorMakesTheShippedLogAgain)
 TEST(ShippedSet, EveryShippedIniLoads)
 {
 	int files = 0;
-	for (const auto& entry : fs::directory_iterator(kSource + "/ini"))
-	{
+	for (const auto& entry : fs::directory_iterator(kSource + "/ini")) {
 		if (entry.path().extension() != ".ini") continue;
 		files++;
 		CIniFile ini = CIniFile::fromFile(entry.path().string());

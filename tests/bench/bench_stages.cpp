@@ -38,12 +38,16 @@ const TScene& scene()
 }
 const TStereoCamera kCamera;
 
-TKeyFrame keyFrame(const TGreyPair& pair) { return CKeyFrameExtractor({}, kCamera).extract(pair.left, pair.right); }
+TKeyFrame keyFrame(const TGreyPair& pair)
+{
+	return CKeyFrameExtractor({}, kCamera).extract(pair.left, pair.right);
+}
 
 void KeyFrame(benchmark::State& state)
 {
 	const CKeyFrameExtractor extractor({}, kCamera);
-	for (auto _ : state) benchmark::DoNotOptimize(extractor.extract(scene().a.left, scene().a.right).size());
+	for (auto _ : state)
+		benchmark::DoNotOptimize(extractor.extract(scene().a.left, scene().a.right).size());
 }
 BENCHMARK(KeyFrame)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
@@ -63,7 +67,8 @@ void Match(benchmark::State& state)
 {
 	const TKeyFrame a = keyFrame(scene().a), b = keyFrame(scene().b);
 	const CStereoRegistration registration({}, kCamera);
-	for (auto _ : state) benchmark::DoNotOptimize(registration.match(a, b).size());
+	for (auto _ : state)
+		benchmark::DoNotOptimize(registration.match(a, b).size());
 }
 BENCHMARK(Match)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
@@ -74,7 +79,8 @@ void Match_Peer_OpenCvCrossCheck(benchmark::State& state)
 	keyFrame(scene().b).descriptors.convertTo(b, CV_32F);
 	const cv::BFMatcher matcher(cv::NORM_L2, true);
 	std::vector<cv::DMatch> matches;
-	for (auto _ : state) matcher.match(a, b, matches);
+	for (auto _ : state)
+		matcher.match(a, b, matches);
 }
 BENCHMARK(Match_Peer_OpenCvCrossCheck)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
@@ -82,7 +88,8 @@ void Register(benchmark::State& state)
 {
 	const TKeyFrame a = keyFrame(scene().a), b = keyFrame(scene().b);
 	const CStereoRegistration registration({}, kCamera);
-	for (auto _ : state) benchmark::DoNotOptimize(registration.align(a, b).inliers);
+	for (auto _ : state)
+		benchmark::DoNotOptimize(registration.align(a, b).inliers);
 }
 BENCHMARK(Register)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
@@ -93,13 +100,13 @@ CPoseGraph lawnMower(int n)
 	std::normal_distribution<double> noise(0, 1);
 	const auto perturbed = [&](const Eigen::Isometry3d& T, double s) {
 		Vector6d d;
-		for (int k = 0; k < 6; k++) d[k] = s * noise(rng);
+		for (int k = 0; k < 6; k++)
+			d[k] = s * noise(rng);
 		return retract(T, d);
 	};
 	CPoseGraph graph;
 	std::vector<Eigen::Isometry3d> truth;
-	for (int i = 0; i < n; i++)
-	{
+	for (int i = 0; i < n; i++) {
 		const int track = i / 24, k = i % 24;
 		Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
 		T.translation() << 3.0 * track, 0.5 * (track % 2 ? 23 - k : k), 3.5;
@@ -110,13 +117,14 @@ CPoseGraph lawnMower(int n)
 		TPoseEdge e;
 		e.from = i;
 		e.to = j;
-		e.T_from_to = perturbed(truth[static_cast<size_t>(i)].inverse() * truth[static_cast<size_t>(j)], 1e-3);
+		e.T_from_to =
+			perturbed(truth[static_cast<size_t>(i)].inverse() * truth[static_cast<size_t>(j)], 1e-3);
 		e.information = 1e6 * Matrix6d::Identity();
 		graph.addEdge(e);
 	};
-	for (int j = 1; j < n; j++)
-	{
-		for (int i = std::max(0, j - 4); i < j; i++) add(i, j);
+	for (int j = 1; j < n; j++) {
+		for (int i = std::max(0, j - 4); i < j; i++)
+			add(i, j);
 		const int across = 2 * 24 * (j / 24) - 1 - j;
 		for (int i = across - 2; i < across + 2; i++)
 			if (i >= 0 && i < j - 4) add(i, j);
@@ -127,8 +135,7 @@ CPoseGraph lawnMower(int n)
 void OptimizeSurvey(benchmark::State& state)
 {
 	const CPoseGraph start = lawnMower(static_cast<int>(state.range(0)));
-	for (auto _ : state)
-	{
+	for (auto _ : state) {
 		CPoseGraph graph = start;
 		CSparseOptimizer optimizer;
 		benchmark::DoNotOptimize(optimizer.optimize(graph).iterations);

@@ -9,8 +9,7 @@ template <class F>
 Eigen::MatrixXd numericalDerivative(F&& f, int n, double step = 1e-6)
 {
 	Eigen::MatrixXd J;
-	for (int i = 0; i < n; i++)
-	{
+	for (int i = 0; i < n; i++) {
 		Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
 		d[i] = step;
 		const Eigen::VectorXd column = (f(d) - f(Eigen::VectorXd(-d))) / (2 * step);

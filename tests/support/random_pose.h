@@ -27,7 +27,8 @@ inline Matrix6d randomCovariance(std::mt19937& rng, double sigma)
 {
 	std::normal_distribution<double> n;
 	Matrix6d A;
-	for (int i = 0; i < 36; i++) A(i) = n(rng);
+	for (int i = 0; i < 36; i++)
+		A(i) = n(rng);
 	return sigma * sigma * (A * A.transpose() / 6 + 0.1 * Matrix6d::Identity());
 }
 }  // namespace posidonia::testing

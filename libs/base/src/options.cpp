@@ -54,14 +54,17 @@ void COptionLister::choice(
 	const char* key, std::string& value, const std::vector<std::string>& names, const char* text)
 {
 	std::string range = "one of";
-	for (const auto& name : names) range += " " + name;
+	for (const auto& name : names)
+		range += " " + name;
 	rows.push_back({key, value, range, text});
 }
 void COptionLister::numbers(
 	const char* key, std::vector<double>& values, size_t n, const TRange& range, const char* text)
 {
 	std::string list;
-	for (double x : values) list += (list.empty() ? "" : " ") + shortest(x);
-	rows.push_back({key, list, (n ? std::to_string(n) : std::string("some")) + " numbers, each " + range.text(), text});
+	for (double x : values)
+		list += (list.empty() ? "" : " ") + shortest(x);
+	rows.push_back(
+		{key, list, (n ? std::to_string(n) : std::string("some")) + " numbers, each " + range.text(), text});
 }
 }  // namespace posidonia

@@ -8,7 +8,8 @@ mrpt::poses::CPose3D toMrpt(const Isometry3d& T)
 {
 	mrpt::math::CMatrixDouble44 H;
 	for (int r = 0; r < 4; r++)
-		for (int c = 0; c < 4; c++) H(r, c) = T.matrix()(r, c);
+		for (int c = 0; c < 4; c++)
+			H(r, c) = T.matrix()(r, c);
 	return mrpt::poses::CPose3D(H);
 }
 
@@ -17,7 +18,8 @@ Isometry3d fromMrpt(const mrpt::poses::CPose3D& T)
 	Isometry3d U = Isometry3d::Identity();
 	const auto& R = T.getRotationMatrix();
 	for (int r = 0; r < 3; r++)
-		for (int c = 0; c < 3; c++) U.linear()(r, c) = R(r, c);
+		for (int c = 0; c < 3; c++)
+			U.linear()(r, c) = R(r, c);
 	U.translation() << T.x(), T.y(), T.z();
 	return U;
 }
@@ -30,8 +32,8 @@ Matrix6d mrptFromLocalJacobian(const Isometry3d& T)
 	const double cp = std::cos(ypr[1]), tp = std::tan(ypr[1]);
 	Eigen::Matrix3d E;
 	E << 0, sr / cp, cr / cp,  // yaw
-		0, cr, -sr,	 // pitch
-		1, sr * tp, cr * tp;  // roll
+		0, cr, -sr,			   // pitch
+		1, sr * tp, cr * tp;   // roll
 	Matrix6d J = Matrix6d::Zero();
 	J.topLeftCorner<3, 3>() = T.linear();
 	J.bottomRightCorner<3, 3>() = E;
@@ -44,7 +46,8 @@ template <class TO, class FROM>
 void copy66(TO& to, const FROM& from)
 {
 	for (int r = 0; r < 6; r++)
-		for (int c = 0; c < 6; c++) to(r, c) = from(r, c);
+		for (int c = 0; c < 6; c++)
+			to(r, c) = from(r, c);
 }
 }  // namespace
 

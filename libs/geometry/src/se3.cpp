@@ -23,8 +23,7 @@ struct TRodrigues
 	double a, b, c;
 	explicit TRodrigues(double x2)
 	{
-		if (x2 < 1e-4)
-		{
+		if (x2 < 1e-4) {
 			a = 1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42));
 			b = 0.5 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56)));
 			c = 1.0 / 6 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72)));
@@ -67,8 +66,7 @@ Matrix3d rightJacobianInverseSO3(const Vector3d& phi)
 	const double x2 = phi.squaredNorm();
 	const Matrix3d S = skew(phi);
 	double d = 1.0 / 12 + x2 / 720;
-	if (x2 > 1e-4)
-	{
+	if (x2 > 1e-4) {
 		const double x = std::sqrt(x2);
 		d = 1 / x2 - (1 + std::cos(x)) / (2 * x * std::sin(x));
 	}

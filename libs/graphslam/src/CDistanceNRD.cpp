@@ -11,8 +11,7 @@ bool CDistanceNRD::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObse
 {
 	const auto pair = std::dynamic_pointer_cast<CObservationStereoImages>(observation);
 	if (!pair || !m_parts->odometry.ready()) return false;
-	if (m_parts->map.nodeCount() == 0)
-	{
+	if (m_parts->map.nodeCount() == 0) {
 		registerRoot(stampOf(*pair));
 		return true;
 	}
@@ -41,7 +40,8 @@ void CDistanceNRD::registerNode(double stamp, const TPoseEstimate& since_node)
 	const int from = map.lastNode();
 	map.addNode({stamp, m_parts->odometry.now().T, {}}, map.pose(from) * since_node.T);
 	map.addEdge(
-		{from, from + 1, EEdgeKind::ODOMETRY, since_node.T, since_node.cov.inverse(), since_node.path_length});
+		{from, from + 1, EEdgeKind::ODOMETRY, since_node.T, since_node.cov.inverse(),
+		 since_node.path_length});
 	m_last_displacement = 0;
 }
 

@@ -22,9 +22,9 @@ TPoseEdge toPoseEdge(const TSlamEdge& edge, const TGraphLossOptions& loss)
 bool append(CPoseGraph& graph, const CSlamMap& map, const TGraphLossOptions& loss)
 {
 	bool stereo = false;
-	for (auto n = static_cast<int>(graph.nodeCount()); n < map.nodeCount(); n++) graph.addNode(map.pose(n), n == 0);
-	for (size_t e = graph.edgeCount(); e < map.edges().size(); e++)
-	{
+	for (auto n = static_cast<int>(graph.nodeCount()); n < map.nodeCount(); n++)
+		graph.addNode(map.pose(n), n == 0);
+	for (size_t e = graph.edgeCount(); e < map.edges().size(); e++) {
 		graph.addEdge(toPoseEdge(map.edges()[e], loss));
 		stereo = stereo || map.edges()[e].kind != EEdgeKind::ODOMETRY;
 	}
@@ -53,22 +53,25 @@ bool CSparseGSO::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObserv
 	return true;
 }
 
-bool CSparseGSO::follow() { return append(m_pose_graph, m_parts->map, m_parts->options.loss); }
+bool CSparseGSO::follow()
+{
+	return append(m_pose_graph, m_parts->map, m_parts->options.loss);
+}
 
 void CSparseGSO::optimizeGraph()
 {
 	const mrpt::system::CTimeLoggerEntry timing(m_parts->timer, "optimize");
 	m_marginals.reset();
 	m_optimizer->optimize(m_pose_graph);
-	for (int n = 0; n < m_parts->map.nodeCount(); n++) m_parts->map.setPose(n, m_pose_graph.pose(n));
+	for (int n = 0; n < m_parts->map.nodeCount(); n++)
+		m_parts->map.setPose(n, m_pose_graph.pose(n));
 	m_just_optimized = true;
 }
 
 std::vector<Matrix6d> CSparseGSO::relativeCovariances(const CSlamMap&, const std::vector<int>& is, int j)
 {
 	// One factorisation serves every decider of a step.
-	if (!m_marginals || j >= m_marginal_nodes)
-	{
+	if (!m_marginals || j >= m_marginal_nodes) {
 		m_marginals.reset();
 		m_marginals.emplace(m_optimizer->marginals(m_pose_graph));
 		m_marginal_nodes = static_cast<int>(m_pose_graph.nodeCount());

@@ -23,7 +23,8 @@ bool CStereoERD::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObserv
 	const auto predictions = predictAll(chosen.register_now, j);
 	for (size_t k = 0; k < chosen.register_now.size(); k++)
 		map.candidates.push_back(judge(chosen.register_now[k], j, registrations[k], predictions[k], rig));
-	for (int i : chosen.over_budget) map.candidates.push_back({i, j, kind(), "over budget"});
+	for (int i : chosen.over_budget)
+		map.candidates.push_back({i, j, kind(), "over budget"});
 	return true;
 }
 
@@ -45,20 +46,22 @@ std::vector<TRelativePrediction> CStereoERD::predictAll(const std::vector<int>& 
 {
 	const CSlamMap& map = m_parts->map;
 	std::vector<TRelativePrediction> predictions(candidates.size());
-	for (size_t k = 0; k < candidates.size(); k++) predictions[k].T_i_j = map.relativePose(candidates[k], j);
+	for (size_t k = 0; k < candidates.size(); k++)
+		predictions[k].T_i_j = map.relativePose(candidates[k], j);
 	if (candidates.empty() || !m_parts->gate.needsCovariance()) return predictions;
 
 	const mrpt::system::CTimeLoggerEntry timing(m_parts->timer, "predict_for_gate");
-	// The newest node hangs on its odometry edge: the graph's own covariance to the node before, and that edge.
+	// The newest node hangs on its odometry edge: the graph's own covariance to the node before, and that
+	// edge.
 	const TSlamEdge* odometry = nullptr;
 	for (auto e = map.edges().rbegin(); e != map.edges().rend() && !odometry; ++e)
 		if (e->kind == EEdgeKind::ODOMETRY && e->to == j) odometry = &*e;
 	const auto to_previous = m_parts->uncertainty->relativeCovariances(map, candidates, j - 1);
 	const auto metres = map.odometryMetresTo(j);
 	const TDeclaredDrift drift = m_parts->odometry.declaredDrift();
-	for (size_t k = 0; k < candidates.size(); k++)
-	{
-		const Matrix6d own = composeCovariance(to_previous[k], odometry->T_from_to, odometry->information.inverse());
+	for (size_t k = 0; k < candidates.size(); k++) {
+		const Matrix6d own =
+			composeCovariance(to_previous[k], odometry->T_from_to, odometry->information.inverse());
 		const double m = metres[static_cast<size_t>(candidates[k])];
 		const Eigen::Vector3d sigma(drift.sigma_xy * m, drift.sigma_xy * m, drift.sigma_z * m);
 		predictions[k].covariance = largerOfGraphAndDrift(own, map.pose(j).linear(), sigma.cwiseAbs2());
@@ -67,10 +70,17 @@ std::vector<TRelativePrediction> CStereoERD::predictAll(const std::vector<int>& 
 }
 
 TCandidateRow CStereoERD::judge(
-	int i, int j, const TRegistration& registration, const TRelativePrediction& prediction, const TSlamParts::TRig& rig)
+	int i, int j, const TRegistration& registration, const TRelativePrediction& prediction,
+	const TSlamParts::TRig& rig)
 {
-	TCandidateRow row{i, j, kind(), toString(registration.status), registration.matches, registration.inliers,
-					  registration.rmse_px};
+	TCandidateRow row{
+		i,
+		j,
+		kind(),
+		toString(registration.status),
+		registration.matches,
+		registration.inliers,
+		registration.rmse_px};
 	if (!registration.accepted()) return row;
 	// From the cameras to the bodies: T_i_j = T_body_cam T_ci_cj T_cam_body.
 	const Isometry3d T_cam_body = rig.T_body_camera.inverse();
@@ -78,8 +88,7 @@ TCandidateRow CStereoERD::judge(
 	row.measured = true;
 	const Matrix6d A = adjoint(T_cam_body);
 	const Matrix6d information = A.transpose() * registration.information * A;
-	if (const auto refusal = m_parts->gate.refuse(prediction, row.T_from_to, information))
-	{
+	if (const auto refusal = m_parts->gate.refuse(prediction, row.T_from_to, information)) {
 		row.status = *refusal;
 		return row;
 	}

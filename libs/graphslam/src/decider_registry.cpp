@@ -84,10 +84,10 @@ template <class T, class MAP>
 std::unique_ptr<T> make(const MAP& map, const std::string& name, const char* what, TSlamParts& parts)
 {
 	const auto found = map.find(name);
-	if (found == map.end())
-	{
+	if (found == map.end()) {
 		std::vector<std::string> known;
-		for (const auto& entry : map) known.push_back(entry.first);
+		for (const auto& entry : map)
+			known.push_back(entry.first);
 		throw CError(std::string(what) + " '" + name + "'", "is not known", didYouMean(name, known));
 	}
 	std::unique_ptr<T> made(found->second());
@@ -100,7 +100,8 @@ std::vector<std::string> words(std::string text)
 	std::replace(text.begin(), text.end(), ',', ' ');
 	std::istringstream in(text);
 	std::vector<std::string> list;
-	for (std::string word; in >> word;) list.push_back(word);
+	for (std::string word; in >> word;)
+		list.push_back(word);
 	return list;
 }
 }  // namespace
@@ -115,7 +116,8 @@ std::unique_ptr<TEdgeDecider> makeEdgeDecider(const std::string& names, TSlamPar
 	std::vector<std::unique_ptr<TEdgeDecider>> made;
 	for (const auto& name : words(names))
 		made.push_back(make<TEdgeDecider>(registry().edge_regs_map, name, "edge decider", parts));
-	if (made.empty()) throw CError("[Slam] edge_deciders", "names no edge decider", "write CEmptyERD for odometry alone");
+	if (made.empty())
+		throw CError("[Slam] edge_deciders", "names no edge decider", "write CEmptyERD for odometry alone");
 	if (made.size() == 1) return std::move(made.front());
 	return std::make_unique<CCompositeERD>(std::move(made));
 }

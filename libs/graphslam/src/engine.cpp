@@ -40,7 +40,8 @@ TSlamGraph CStereoGraphSlamEngine::dijkstraGraph() const
 	TSlamGraph graph = m_graph;
 	const mrpt::poses::CPose3D root_pose = graph.nodes.at(graph.root);
 	graph.dijkstra_nodes_estimate();
-	for (auto& [id, pose] : graph.nodes) pose = TSlamGraph::global_pose_t(root_pose + pose);
+	for (auto& [id, pose] : graph.nodes)
+		pose = TSlamGraph::global_pose_t(root_pose + pose);
 	return graph;
 }
 
@@ -89,8 +90,9 @@ struct CStereoSlam::TImplementation
 	std::vector<TCausalPose> causal;
 
 	TImplementation(
-		const TStereoSlamOptions& options, const TSensorSuite& sensors, std::unique_ptr<COdometrySource> odometry_,
-		std::unique_ptr<CStereoImageLoader> images_, const std::string& config_file)
+		const TStereoSlamOptions& options, const TSensorSuite& sensors,
+		std::unique_ptr<COdometrySource> odometry_, std::unique_ptr<CStereoImageLoader> images_,
+		const std::string& config_file)
 		: odometry(std::move(odometry_)),
 		  images(std::move(images_)),
 		  parts(options, sensors, *odometry, *images),
@@ -106,7 +108,8 @@ struct CStereoSlam::TImplementation
 CStereoSlam::CStereoSlam(
 	const TStereoSlamOptions& options, const TSensorSuite& sensors, std::unique_ptr<COdometrySource> odometry,
 	std::unique_ptr<CStereoImageLoader> images, const std::string& config_file)
-	: m_impl(std::make_unique<TImplementation>(options, sensors, std::move(odometry), std::move(images), config_file))
+	: m_impl(std::make_unique<TImplementation>(
+		  options, sensors, std::move(odometry), std::move(images), config_file))
 {
 }
 CStereoSlam::~CStereoSlam() = default;
@@ -123,7 +126,8 @@ void CStereoSlam::add(const CObservation::Ptr& observation)
 	size_t entry = 0;
 	m_impl->engine->_execGraphSlamStep(no_action, no_frame, present, entry);
 	if (m_impl->engine->addedNode()) m_impl->odometry->clone();
-	if (IS_CLASS(*observation, CObservationStereoImages) && map().nodeCount() > 0) m_impl->causal.push_back(now());
+	if (IS_CLASS(*observation, CObservationStereoImages) && map().nodeCount() > 0)
+		m_impl->causal.push_back(now());
 }
 
 TCausalPose CStereoSlam::now() const
@@ -135,20 +139,39 @@ TCausalPose CStereoSlam::now() const
 	return {m_impl->odometry->stamp(), T_map_odom * T_odom_body, T_odom_body};
 }
 
-bool CStereoSlam::addedNode() const { return m_impl->engine->addedNode(); }
-const std::vector<TCausalPose>& CStereoSlam::causal() const { return m_impl->causal; }
-const CSlamMap& CStereoSlam::map() const { return m_impl->parts.map; }
-const COdometrySource& CStereoSlam::odometry() const { return *m_impl->odometry; }
-mrpt::system::CTimeLogger& CStereoSlam::timer() const { return m_impl->parts.timer; }
+bool CStereoSlam::addedNode() const
+{
+	return m_impl->engine->addedNode();
+}
+const std::vector<TCausalPose>& CStereoSlam::causal() const
+{
+	return m_impl->causal;
+}
+const CSlamMap& CStereoSlam::map() const
+{
+	return m_impl->parts.map;
+}
+const COdometrySource& CStereoSlam::odometry() const
+{
+	return *m_impl->odometry;
+}
+mrpt::system::CTimeLogger& CStereoSlam::timer() const
+{
+	return m_impl->parts.timer;
+}
 
 TTrajectory CStereoSlam::nodes() const
 {
 	TTrajectory trajectory;
-	for (int i = 0; i < map().nodeCount(); i++) trajectory.push_back({map().node(i).stamp, map().pose(i)});
+	for (int i = 0; i < map().nodeCount(); i++)
+		trajectory.push_back({map().node(i).stamp, map().pose(i)});
 	return trajectory;
 }
 
-double CStereoSlam::chi2() const { return posidonia::chi2(toPoseGraph(map(), m_impl->parts.options.loss)); }
+double CStereoSlam::chi2() const
+{
+	return posidonia::chi2(toPoseGraph(map(), m_impl->parts.options.loss));
+}
 
 double CStereoSlam::dijkstraChi2() const
 {

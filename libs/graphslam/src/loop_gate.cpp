@@ -14,8 +14,7 @@ Matrix6d largerOfGraphAndDrift(
 	Matrix6d to_map = Matrix6d::Identity();
 	to_map.topLeftCorner<3, 3>() = R_map_j;
 	Matrix6d C = to_map * covariance * to_map.transpose();
-	for (int axis = 0; axis < 3; axis++)
-	{
+	for (int axis = 0; axis < 3; axis++) {
 		if (drift_variance[axis] <= C(axis, axis)) continue;
 		C.row(axis).setZero();
 		C.col(axis).setZero();
@@ -26,13 +25,12 @@ Matrix6d largerOfGraphAndDrift(
 
 namespace
 {
-/** Quantile of the chi-square distribution of 6 degrees of freedom, whose upper tail is exp(-h) (1 + h + h^2/2) at
- * h = x/2; by bisection, since mrpt::math::chi2inv is 1 to 3 % off in the tail. */
+/** Quantile of the chi-square distribution of 6 degrees of freedom, whose upper tail is exp(-h) (1 + h +
+ * h^2/2) at h = x/2; by bisection, since mrpt::math::chi2inv is 1 to 3 % off in the tail. */
 double chiSquare6Quantile(double p)
 {
 	double low = 0, high = 100;
-	for (int k = 0; k < 100; k++)
-	{
+	for (int k = 0; k < 100; k++) {
 		const double h = (low + high) / 2;
 		(std::exp(-h) * (1 + h + h * h / 2) > 1 - p ? low : high) = h;
 	}
@@ -49,8 +47,7 @@ double CLoopGate::mahalanobis2(
 	const TRelativePrediction& prediction, const Isometry3d& T_i_j, const Matrix6d& information) const
 {
 	Matrix6d S = prediction.covariance + Matrix6d(information.inverse());
-	for (int k = 0; k < 6; k++)
-	{
+	for (int k = 0; k < 6; k++) {
 		const double floor = k < 3 ? m_options.sigma_floor_xyz : m_options.sigma_floor_angle;
 		S(k, k) += floor * floor;
 	}
@@ -61,8 +58,7 @@ double CLoopGate::mahalanobis2(
 std::optional<std::string> CLoopGate::refuse(
 	const TRelativePrediction& prediction, const Isometry3d& T_i_j, const Matrix6d& information) const
 {
-	if (m_options.kind == "jump")
-	{
+	if (m_options.kind == "jump") {
 		const double jump = (T_i_j.translation() - prediction.T_i_j.translation()).norm();
 		if (jump > m_options.max_jump) return "refused by the jump gate";
 		return {};

@@ -11,11 +11,13 @@ using Eigen::Isometry3d;
 
 const char* toString(EEdgeKind kind)
 {
-	switch (kind)
-	{
-		case EEdgeKind::ODOMETRY: return "odometry";
-		case EEdgeKind::SEQUENTIAL: return "sequential";
-		case EEdgeKind::ROI: return "roi";
+	switch (kind) {
+		case EEdgeKind::ODOMETRY:
+			return "odometry";
+		case EEdgeKind::SEQUENTIAL:
+			return "sequential";
+		case EEdgeKind::ROI:
+			return "roi";
 	}
 	return "?";
 }
@@ -60,13 +62,11 @@ std::vector<double> CSlamMap::odometryMetresTo(int to) const
 	std::priority_queue<TItem, std::vector<TItem>, std::greater<>> open;
 	metres[static_cast<size_t>(to)] = 0;
 	open.push({0, to});
-	while (!open.empty())
-	{
+	while (!open.empty()) {
 		const auto [d, i] = open.top();
 		open.pop();
 		if (d > metres[static_cast<size_t>(i)]) continue;
-		for (int e : m_edges_of[static_cast<size_t>(i)])
-		{
+		for (int e : m_edges_of[static_cast<size_t>(i)]) {
 			const TSlamEdge& edge = m_edges[static_cast<size_t>(e)];
 			const int k = edge.from == i ? edge.to : edge.from;
 			const double through = d + (edge.kind == EEdgeKind::ODOMETRY ? edge.path_length : 0);
@@ -82,23 +82,20 @@ std::string candidatesCsv(const std::vector<TCandidateRow>& rows)
 {
 	std::string csv = "from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw\n";
 	char line[512];
-	for (const auto& row : rows)
-	{
+	for (const auto& row : rows) {
 		std::snprintf(
-			line, sizeof line, "%d,%d,%s,%s,%d,%d,%.6f", row.from, row.to, toString(row.kind), row.status.c_str(),
-			row.matches, row.inliers, row.rmse_px);
+			line, sizeof line, "%d,%d,%s,%s,%d,%d,%.6f", row.from, row.to, toString(row.kind),
+			row.status.c_str(), row.matches, row.inliers, row.rmse_px);
 		csv += line;
-		if (row.measured)
-		{
+		if (row.measured) {
 			const Eigen::Vector3d t = row.T_from_to.translation();
 			const Eigen::Quaterniond q(row.T_from_to.linear());
 			std::snprintf(
-				line, sizeof line, ",%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f", t.x(), t.y(), t.z(), q.x(), q.y(), q.z(),
-				q.w());
+				line, sizeof line, ",%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f", t.x(), t.y(), t.z(), q.x(),
+				q.y(), q.z(), q.w());
 			csv += line;
 		}
-		else
-		{
+		else {
 			csv += ",,,,,,,";
 		}
 		csv += "\n";

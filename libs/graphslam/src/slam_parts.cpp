@@ -7,7 +7,8 @@ namespace posidonia
 {
 using mrpt::obs::CObservationStereoImages;
 
-std::vector<Matrix6d> CChainUncertainty::relativeCovariances(const CSlamMap& map, const std::vector<int>& is, int j)
+std::vector<Matrix6d> CChainUncertainty::relativeCovariances(
+	const CSlamMap& map, const std::vector<int>& is, int j)
 {
 	// Backwards along the odometry edges k -> k+1: cov(T_k_j) from cov(T_(k+1)_j).
 	std::vector<const TSlamEdge*> step(static_cast<size_t>(map.nodeCount()), nullptr);
@@ -15,21 +16,22 @@ std::vector<Matrix6d> CChainUncertainty::relativeCovariances(const CSlamMap& map
 		if (e.kind == EEdgeKind::ODOMETRY) step[static_cast<size_t>(e.from)] = &e;
 	std::vector<Matrix6d> to_j(static_cast<size_t>(j) + 1, Matrix6d::Zero());
 	Eigen::Isometry3d T_k_j = Eigen::Isometry3d::Identity();
-	for (int k = j - 1; k >= 0; k--)
-	{
+	for (int k = j - 1; k >= 0; k--) {
 		const TSlamEdge* e = step[static_cast<size_t>(k)];
 		const auto at = static_cast<size_t>(k);
 		to_j[at] = composeCovariance(e->information.inverse(), T_k_j, to_j[at + 1]);
 		T_k_j = e->T_from_to * T_k_j;
 	}
 	std::vector<Matrix6d> covariances;
-	for (int i : is) covariances.push_back(to_j[static_cast<size_t>(i)]);
+	for (int i : is)
+		covariances.push_back(to_j[static_cast<size_t>(i)]);
 	return covariances;
 }
 
 namespace
 {
-/** The rig is told twice, in the log and in the sensors.ini: they must not contradict each other unnoticed. */
+/** The rig is told twice, in the log and in the sensors.ini: they must not contradict each other unnoticed.
+ */
 void requireSameSize(const CObservationStereoImages& pair, const TStereoSpec& spec)
 {
 	if (static_cast<int>(pair.leftCamera.ncols) == spec.camera.width &&
@@ -62,8 +64,7 @@ const TSlamParts::TRig& TSlamParts::rigOf(const CObservationStereoImages& pair)
 
 const TKeyFrame& TSlamParts::keyFrameOf(int i, const CObservationStereoImages& pair)
 {
-	if (!map.node(i).key_frame)
-	{
+	if (!map.node(i).key_frame) {
 		const TRig& rig = rigOf(pair);
 		TGreyPair grey;
 		{

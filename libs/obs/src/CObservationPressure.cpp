@@ -6,7 +6,10 @@ IMPLEMENTS_SERIALIZABLE(CObservationPressure, mrpt::obs::CObservation, posidonia
 
 namespace posidonia
 {
-uint8_t CObservationPressure::serializeGetVersion() const { return 0; }
+uint8_t CObservationPressure::serializeGetVersion() const
+{
+	return 0;
+}
 
 void CObservationPressure::serializeTo(mrpt::serialization::CArchive& out) const
 {
@@ -26,6 +29,12 @@ void CObservationPressure::getDescriptionAsText(std::ostream& o) const
 	o << "sensor pose on the vehicle: " << sensorPose << "\n";
 }
 
-std::string CObservationPressure::exportTxtHeader() const { return mrpt::format("%18s", "pressure"); }
-std::string CObservationPressure::exportTxtDataRow() const { return mrpt::format("%18.6f", pressure); }
+std::string CObservationPressure::exportTxtHeader() const
+{
+	return mrpt::format("%18s", "pressure");
+}
+std::string CObservationPressure::exportTxtDataRow() const
+{
+	return mrpt::format("%18.6f", pressure);
+}
 }  // namespace posidonia

@@ -17,8 +17,8 @@ Vector3d nedFromGeodetic(const TGeodetic& p, const TWorldOptions& datum)
 
 TGeodetic geodeticFromNed(const Vector3d& ned, const TWorldOptions& datum)
 {
-	// MRPT's ENUToGeocentric uses the geocentric radius instead of the ellipsoid's normal (0.37 m of height at
-	// 111 m), so the rotation is done here.
+	// MRPT's ENUToGeocentric uses the geocentric radius instead of the ellipsoid's normal (0.37 m of height
+	// at 111 m), so the rotation is done here.
 	const double lat = datum.latitude * M_PI / 180, lon = datum.longitude * M_PI / 180;
 	mrpt::math::TPoint3D origin;
 	topo::geodeticToGeocentric_WGS84(topo::TGeodeticCoords(datum.latitude, datum.longitude, 0), origin);

@@ -7,8 +7,14 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using namespace mrpt::obs;
 
-double stampOf(const CObservation& observation) { return mrpt::Clock::toDouble(observation.timestamp); }
-mrpt::system::TTimeStamp stampFrom(double utc_seconds) { return mrpt::Clock::fromDouble(utc_seconds); }
+double stampOf(const CObservation& observation)
+{
+	return mrpt::Clock::toDouble(observation.timestamp);
+}
+mrpt::system::TTimeStamp stampFrom(double utc_seconds)
+{
+	return mrpt::Clock::fromDouble(utc_seconds);
+}
 
 namespace
 {
@@ -38,8 +44,7 @@ std::optional<TImuReading> imuReadingOf(const CObservationIMU& imu)
 {
 	if (!hasAll(imu, kRates) || !hasAll(imu, kForces)) return {};
 	TImuReading reading;
-	for (int i = 0; i < 3; i++)
-	{
+	for (int i = 0; i < 3; i++) {
 		reading.rate[i] = imu.get(kRates[i]);
 		reading.force[i] = imu.get(kForces[i]);
 	}
@@ -48,10 +53,10 @@ std::optional<TImuReading> imuReadingOf(const CObservationIMU& imu)
 
 std::optional<Matrix3d> attitudeOf(const CObservationIMU& ahrs)
 {
-	if (hasAll(ahrs, kQuaternion))
-	{
+	if (hasAll(ahrs, kQuaternion)) {
 		const Eigen::Quaterniond q(
-			ahrs.get(IMU_ORI_QUAT_W), ahrs.get(IMU_ORI_QUAT_X), ahrs.get(IMU_ORI_QUAT_Y), ahrs.get(IMU_ORI_QUAT_Z));
+			ahrs.get(IMU_ORI_QUAT_W), ahrs.get(IMU_ORI_QUAT_X), ahrs.get(IMU_ORI_QUAT_Y),
+			ahrs.get(IMU_ORI_QUAT_Z));
 		if (q.norm() < 1e-6) return {};
 		return q.normalized().toRotationMatrix();
 	}
@@ -63,8 +68,7 @@ CObservationIMU::Ptr makeImu(
 	const std::string& label, double stamp, const Isometry3d& T_body_sensor, const TImuReading& reading)
 {
 	auto imu = makeEmptyImu(label, stamp, T_body_sensor);
-	for (int i = 0; i < 3; i++)
-	{
+	for (int i = 0; i < 3; i++) {
 		imu->set(kRates[i], reading.rate[i]);
 		imu->set(kForces[i], reading.force[i]);
 	}
@@ -78,8 +82,10 @@ CObservationIMU::Ptr makeAhrs(
 	const Eigen::Quaterniond q(R_map_sensor);
 	const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
 	const Eigen::Vector3d ypr = yawPitchRoll(R_map_sensor);
-	for (int i = 0; i < 4; i++) ahrs->set(kQuaternion[i], wxyz[i]);
-	for (int i = 0; i < 3; i++) ahrs->set(kYawPitchRoll[i], ypr[i]);  // for viewers
+	for (int i = 0; i < 4; i++)
+		ahrs->set(kQuaternion[i], wxyz[i]);
+	for (int i = 0; i < 3; i++)
+		ahrs->set(kYawPitchRoll[i], ypr[i]);  // for viewers
 	return ahrs;
 }
 }  // namespace posidonia

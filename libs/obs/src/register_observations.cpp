@@ -10,4 +10,7 @@ void posidonia::registerObservations()
 	mrpt::rtti::registerClass(CLASS_ID(posidonia::CObservationPressure));
 }
 
-MRPT_INITIALIZER(registerAllClasses_posidonia_obs) { posidonia::registerObservations(); }
+MRPT_INITIALIZER(registerAllClasses_posidonia_obs)
+{
+	posidonia::registerObservations();
+}

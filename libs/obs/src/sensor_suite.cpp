@@ -30,7 +30,8 @@ void forKind(SUITE& suite, const std::string& kind, F&& f)
 		using spec_t = typename std::decay_t<decltype(entries)>::mapped_type;
 		if (kind == spec_t::kind) f(entries);
 	};
-	call(suite.imu), call(suite.ahrs), call(suite.dvl), call(suite.pressure), call(suite.gps), call(suite.stereo);
+	call(suite.imu), call(suite.ahrs), call(suite.dvl), call(suite.pressure), call(suite.gps),
+		call(suite.stereo);
 }
 
 template <class SUITE, class F>
@@ -38,7 +39,8 @@ void forEachSpec(SUITE& suite, F&& f)
 {
 	for (const char* kind : {"imu", "ahrs", "dvl", "pressure", "gps", "stereo"})
 		forKind(suite, kind, [&](auto& entries) {
-			for (auto& [label, spec] : entries) f(label, spec);
+			for (auto& [label, spec] : entries)
+				f(label, spec);
 		});
 }
 }  // namespace
@@ -57,9 +59,18 @@ std::vector<double> TSensorMount::poseNumbers(const Isometry3d& T)
 	return {t.x(), t.y(), t.z(), ypr.x(), ypr.y(), ypr.z()};
 }
 
-double TPressureSpec::depth(double p) const { return (p - surface_pressure) / (water_density * kGravity); }
-double TPressureSpec::pressureAt(double depth) const { return surface_pressure + water_density * kGravity * depth; }
-double TPressureSpec::sigmaDepth() const { return sigma / (water_density * kGravity); }
+double TPressureSpec::depth(double p) const
+{
+	return (p - surface_pressure) / (water_density * kGravity);
+}
+double TPressureSpec::pressureAt(double depth) const
+{
+	return surface_pressure + water_density * kGravity * depth;
+}
+double TPressureSpec::sigmaDepth() const
+{
+	return sigma / (water_density * kGravity);
+}
 
 TStereoSpec::TStereoSpec()
 {
@@ -84,10 +95,10 @@ TSensorSuite readSensors(const std::string& path)
 	requireFile(path, "write one (see docs), or give --assume-defaults");
 	CIniFile ini = CIniFile::fromFile(path);
 	TSensorSuite suite;
-	for (const std::string& label : ini.sections())
-	{
+	for (const std::string& label : ini.sections()) {
 		const std::string kind = ini.load<TKind>(label).kind;
-		if (kind.empty()) throw CError(path, "[" + label + "] has no key 'kind'", "add kind = imu, dvl, stereo ...");
+		if (kind.empty())
+			throw CError(path, "[" + label + "] has no key 'kind'", "add kind = imu, dvl, stereo ...");
 		forKind(suite, kind, [&](auto& entries) { ini.loadOnto(entries[label], label); });
 	}
 	ini.refuseUnknown();
@@ -106,7 +117,8 @@ void writeSensors(const std::string& path, const TSensorSuite& suite)
 		out << "// Sensors of the rawlog beside this file: one section a sensorLabel.\n\n";
 		forEachSpec(copy, [&](const std::string& label, auto& spec) {
 			out << "[" << label << "]\nkind = " << std::decay_t<decltype(spec)>::kind << "\n";
-			for (const auto& row : listOptions(spec)) out << "// " << row.text << "\n" << row.key << " = " << row.value << "\n";
+			for (const auto& row : listOptions(spec))
+				out << "// " << row.text << "\n" << row.key << " = " << row.value << "\n";
 			out << "\n";
 		});
 	});

@@ -32,10 +32,22 @@ struct TRange
 	/** "must be > 0", "must be in [0, 1]" ... */
 	std::string text() const;
 };
-inline TRange above(double bound) { return {bound, std::numeric_limits<double>::infinity(), true}; }
-inline TRange atLeast(double bound) { return {bound, std::numeric_limits<double>::infinity(), false}; }
-inline TRange between(double lo, double hi) { return {lo, hi, false}; }
-inline TRange anyNumber() { return {}; }
+inline TRange above(double bound)
+{
+	return {bound, std::numeric_limits<double>::infinity(), true};
+}
+inline TRange atLeast(double bound)
+{
+	return {bound, std::numeric_limits<double>::infinity(), false};
+}
+inline TRange between(double lo, double hi)
+{
+	return {lo, hi, false};
+}
+inline TRange anyNumber()
+{
+	return {};
+}
 
 /** A key as documentation sees it. */
 struct TOptionDoc
@@ -57,7 +69,8 @@ class COptionLister
 	void text(const char* key, std::string& value, const char* text);
 	void choice(const char* key, std::string& value, const std::vector<std::string>& names, const char* text);
 	/** Exactly `n` blank-separated numbers (n = 0: any count). */
-	void numbers(const char* key, std::vector<double>& values, size_t n, const TRange& range, const char* text);
+	void numbers(
+		const char* key, std::vector<double>& values, size_t n, const TRange& range, const char* text);
 };
 
 template <class OPTIONS>

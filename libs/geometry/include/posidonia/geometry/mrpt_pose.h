@@ -5,8 +5,9 @@
 #include <mrpt/poses/CPose3DPDFGaussianInf.h>
 #include <posidonia/geometry/se3.h>
 
-/** Between our poses and MRPT's. MRPT's pose covariances are over (x, y, z, yaw, pitch, roll), the translation in
- * the outer frame; ours over (rho, phi) in the pose's own frame. Singular at +-90 deg of pitch (MRPT's choice). */
+/** Between our poses and MRPT's. MRPT's pose covariances are over (x, y, z, yaw, pitch, roll), the
+ * translation in the outer frame; ours over (rho, phi) in the pose's own frame. Singular at +-90 deg of pitch
+ * (MRPT's choice). */
 namespace posidonia
 {
 mrpt::poses::CPose3D toMrpt(const Eigen::Isometry3d& T);

@@ -38,8 +38,7 @@ Vector6d localCoordinates(const Eigen::Isometry3d& T, const Eigen::Isometry3d& U
 Matrix6d adjoint(const Eigen::Isometry3d& T);
 
 /** Covariance of T_a_b * T_b_c from independent T_a_b and T_b_c. */
-Matrix6d composeCovariance(
-	const Matrix6d& cov_a_b, const Eigen::Isometry3d& T_b_c, const Matrix6d& cov_b_c);
+Matrix6d composeCovariance(const Matrix6d& cov_a_b, const Eigen::Isometry3d& T_b_c, const Matrix6d& cov_b_c);
 
 /** Covariance of inverse(T) from that of T. */
 Matrix6d inverseCovariance(const Eigen::Isometry3d& T, const Matrix6d& cov);

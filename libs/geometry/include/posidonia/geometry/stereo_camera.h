@@ -9,9 +9,9 @@ namespace posidonia
 struct TStereoCamera
 {
 	int width{640}, height{480};  ///< [px]
-	double fx{283}, fy{283};  ///< Focal lengths [px]
+	double fx{283}, fy{283};	  ///< Focal lengths [px]
 	double cx{319.5}, cy{239.5};  ///< Principal point [px], pixel centres at whole numbers
-	double baseline{0.12};	///< [m], > 0
+	double baseline{0.12};		  ///< [m], > 0
 
 	/** (u_left, v, u_right) [px] of a point in left-camera coordinates [m], z > 0. */
 	Eigen::Vector3d project(const Eigen::Vector3d& p) const

@@ -9,7 +9,8 @@ namespace posidonia
 struct TStampedPose
 {
 	double stamp{0};  ///< UTC [s]
-	Eigen::Isometry3d T{Eigen::Isometry3d::Identity()};	 ///< T_map_body (or of another frame pair: the owner says)
+	Eigen::Isometry3d T{
+		Eigen::Isometry3d::Identity()};	 ///< T_map_body (or of another frame pair: the owner says)
 };
 
 using TTrajectory = std::vector<TStampedPose>;

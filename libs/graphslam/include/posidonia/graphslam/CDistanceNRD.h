@@ -5,10 +5,12 @@
 
 namespace posidonia
 {
-/** Node registration (paper, sec. 3.2): a node at the first stereo pair whose 3D displacement from the last node is at
- * least the wanted distance less half the step between pairs (so that nodes are the wanted distance apart on average),
- * and its odometry edge. The root is the first stereo pair, at the pose that the odometry has then. */
-class CDistanceNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecider<TSlamGraph>, public CUsesSlamParts
+/** Node registration (paper, sec. 3.2): a node at the first stereo pair whose 3D displacement from the last
+ * node is at least the wanted distance less half the step between pairs (so that nodes are the wanted
+ * distance apart on average), and its odometry edge. The root is the first stereo pair, at the pose that the
+ * odometry has then. */
+class CDistanceNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecider<TSlamGraph>,
+					 public CUsesSlamParts
 {
    public:
 	/** True when a node was added. */

@@ -6,8 +6,8 @@
 
 namespace posidonia
 {
-/** Optimises the graph (paper, eq. 2) with libs/posegraph whenever a stereo edge was added, and tells the loop gate how
- * sure the graph is. The root is held fixed. */
+/** Optimises the graph (paper, eq. 2) with libs/posegraph whenever a stereo edge was added, and tells the
+ * loop gate how sure the graph is. The root is held fixed. */
 class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlamGraph>,
 				   public CUsesSlamParts,
 				   public CRelativeUncertainty
@@ -20,7 +20,8 @@ class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlam
 		mrpt::obs::CObservation::Ptr observation) override;
 	bool justFullyOptimizedGraph() const override { return m_just_optimized; }
 
-	std::vector<Matrix6d> relativeCovariances(const CSlamMap& map, const std::vector<int>& is, int j) override;
+	std::vector<Matrix6d> relativeCovariances(
+		const CSlamMap& map, const std::vector<int>& is, int j) override;
 
    protected:
 	void optimizeGraph() override;
@@ -30,11 +31,13 @@ class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlam
 
 	CPoseGraph m_pose_graph;
 	std::unique_ptr<CSparseOptimizer> m_optimizer;
-	std::optional<CMarginals> m_marginals;	// of the first m_marginal_nodes nodes, until the next optimisation
+	std::optional<CMarginals>
+		m_marginals;  // of the first m_marginal_nodes nodes, until the next optimisation
 	int m_marginal_nodes{0};
 	bool m_just_optimized{false};
 };
 
-/** The map as a pose graph: nodes at their present poses, the root fixed, robust losses on the stereo edges. */
+/** The map as a pose graph: nodes at their present poses, the root fixed, robust losses on the stereo edges.
+ */
 CPoseGraph toPoseGraph(const CSlamMap& map, const TGraphLossOptions& loss);
 }  // namespace posidonia

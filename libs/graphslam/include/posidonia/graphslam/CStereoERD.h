@@ -5,9 +5,11 @@
 
 namespace posidonia
 {
-/** What stereo edge deciders share: at a new node its key frame is made, candidates are registered against it by PnP
- * RANSAC and refinement, gated against the graph's own prediction, and become edges; every candidate is recorded. */
-class CStereoERD : public mrpt::graphslam::deciders::CEdgeRegistrationDecider<TSlamGraph>, public CUsesSlamParts
+/** What stereo edge deciders share: at a new node its key frame is made, candidates are registered against it
+ * by PnP RANSAC and refinement, gated against the graph's own prediction, and become edges; every candidate
+ * is recorded. */
+class CStereoERD : public mrpt::graphslam::deciders::CEdgeRegistrationDecider<TSlamGraph>,
+				   public CUsesSlamParts
 {
    public:
 	/** Does its work once for each new node. */
@@ -28,7 +30,8 @@ class CStereoERD : public mrpt::graphslam::deciders::CEdgeRegistrationDecider<TS
 	virtual EEdgeKind kind() const = 0;
 
    private:
-	std::vector<TRegistration> registerAll(const std::vector<int>& candidates, int j, const TSlamParts::TRig& rig) const;
+	std::vector<TRegistration> registerAll(
+		const std::vector<int>& candidates, int j, const TSlamParts::TRig& rig) const;
 	std::vector<TRelativePrediction> predictAll(const std::vector<int>& candidates, int j) const;
 	TCandidateRow judge(
 		int i, int j, const TRegistration& registration, const TRelativePrediction& prediction,

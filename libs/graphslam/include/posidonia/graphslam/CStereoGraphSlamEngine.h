@@ -6,9 +6,10 @@
 
 namespace posidonia
 {
-/** MRPT's engine with its optimised poses kept. MRPT's own step rebuilds all nodes by Dijkstra along the edges after each
- * optimisation (MRPT/mrpt#985), throws the root to the identity and needs a window in places; this step runs the node
- * decider, the edge deciders and the optimiser, and leaves their poses alone. Headless. */
+/** MRPT's engine with its optimised poses kept. MRPT's own step rebuilds all nodes by Dijkstra along the
+ * edges after each optimisation (MRPT/mrpt#985), throws the root to the identity and needs a window in
+ * places; this step runs the node decider, the edge deciders and the optimiser, and leaves their poses alone.
+ * Headless. */
 class CStereoGraphSlamEngine : public mrpt::graphslam::CGraphSlamEngine<TSlamGraph>
 {
    public:
@@ -18,8 +19,8 @@ class CStereoGraphSlamEngine : public mrpt::graphslam::CGraphSlamEngine<TSlamGra
 
 	/** The four references must outlive the engine (MRPT keeps raw pointers and never deletes them). */
 	CStereoGraphSlamEngine(
-		const std::string& config_file, TSlamParts& parts, TNodeDecider& node_decider, TEdgeDecider& edge_decider,
-		TOptimizer& optimizer);
+		const std::string& config_file, TSlamParts& parts, TNodeDecider& node_decider,
+		TEdgeDecider& edge_decider, TOptimizer& optimizer);
 
 	bool _execGraphSlamStep(
 		mrpt::obs::CActionCollection::Ptr& action, mrpt::obs::CSensoryFrame::Ptr& observations,
@@ -28,7 +29,8 @@ class CStereoGraphSlamEngine : public mrpt::graphslam::CGraphSlamEngine<TSlamGra
 	/** Did the last step add a node? */
 	bool addedNode() const { return m_added_node; }
 
-	/** The graph with every pose composed along its edges from the root: what MRPT's engine would have kept. */
+	/** The graph with every pose composed along its edges from the root: what MRPT's engine would have kept.
+	 */
 	TSlamGraph dijkstraGraph() const;
 
    private:

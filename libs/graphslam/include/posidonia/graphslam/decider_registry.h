@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-/** Deciders and optimisers by name. Behind it stands MRPT's own table (TUserOptionsChecker) with ours in it, which is
- * looked up here since MRPT's checks are empty in release builds and an unknown name would crash. */
+/** Deciders and optimisers by name. Behind it stands MRPT's own table (TUserOptionsChecker) with ours in it,
+ * which is looked up here since MRPT's checks are empty in release builds and an unknown name would crash. */
 namespace posidonia
 {
 using TNodeDecider = mrpt::graphslam::deciders::CNodeRegistrationDecider<TSlamGraph>;

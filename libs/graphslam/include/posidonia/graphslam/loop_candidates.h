@@ -15,13 +15,15 @@ struct TCandidate
 	double overlap{0};	///< Predicted share of the newest picture that the candidate's shows, 0 to 1
 };
 
-/** Nodes inside the sphere of radius `options.radius` round node j (paper sec. 3.2, "Region of Interest"), the
- * latest min_node_gap left out, with their predicted overlap; best overlap first, ties to the older node. */
+/** Nodes inside the sphere of radius `options.radius` round node j (paper sec. 3.2, "Region of Interest"),
+ * the latest min_node_gap left out, with their predicted overlap; best overlap first, ties to the older node.
+ */
 std::vector<TCandidate> candidatesInRoi(
 	const CSlamMap& map, int j, const TRoiOptions& options, const TStereoCamera& camera,
 	const Eigen::Isometry3d& T_body_camera);
 
-/** Share of the picture of camera j, at the range `depth` [m] of the floor, that falls into the picture of camera i. */
+/** Share of the picture of camera j, at the range `depth` [m] of the floor, that falls into the picture of
+ * camera i. */
 double predictedOverlap(const TStereoCamera& camera, const Eigen::Isometry3d& T_cam_i_cam_j, double depth);
 
 /** Median depth of a key frame's points [m]; 0 without points. */

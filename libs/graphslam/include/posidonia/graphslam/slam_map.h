@@ -26,7 +26,7 @@ const char* toString(EEdgeKind kind);
 /** What a node knows beside its pose in the graph. */
 struct TSlamNode
 {
-	double stamp{0};  ///< UTC [s]
+	double stamp{0};											   ///< UTC [s]
 	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};  ///< The odometry's pose at `stamp`
 	std::shared_ptr<const TKeyFrame> key_frame;	 ///< Null until an edge decider asked for it
 };
@@ -54,7 +54,8 @@ struct TCandidateRow
 };
 
 /** The map that deciders and optimiser share: MRPT's graph with, in order of insertion and without the detour
- * through yaw-pitch-roll, what each node and edge is. Whoever adds a node or an edge adds it here, and here alone. */
+ * through yaw-pitch-roll, what each node and edge is. Whoever adds a node or an edge adds it here, and here
+ * alone. */
 class CSlamMap
 {
    public:
@@ -79,8 +80,8 @@ class CSlamMap
 	/** Prediction of T_i_j by the present poses. */
 	Eigen::Isometry3d relativePose(int i, int j) const { return pose(i).inverse() * pose(j); }
 
-	/** For each node, the fewest metres of odometry edges on any way through the graph to `to`; stereo edges count
-	 * nothing, since they do not pass on the odometry's drift. */
+	/** For each node, the fewest metres of odometry edges on any way through the graph to `to`; stereo edges
+	 * count nothing, since they do not pass on the odometry's drift. */
 	std::vector<double> odometryMetresTo(int to) const;
 
 	std::vector<TCandidateRow> candidates;	///< Every pair that was considered, in order

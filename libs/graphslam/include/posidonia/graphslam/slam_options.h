@@ -18,9 +18,12 @@ struct TSlamOptions
 	void visit(VISITOR& v)
 	{
 		v.text("node_decider", node_decider, "Node registration decider (see --list-deciders)");
-		v.text("edge_deciders", edge_deciders, "Edge registration deciders, blank-separated, run in this order");
+		v.text(
+			"edge_deciders", edge_deciders, "Edge registration deciders, blank-separated, run in this order");
 		v.text("optimizer", optimizer, "Optimiser of the graph (see --list-deciders)");
-		v.integer("threads", threads, between(1, 64), "Threads that verify candidates; results do not depend on it");
+		v.integer(
+			"threads", threads, between(1, 64),
+			"Threads that verify candidates; results do not depend on it");
 	}
 };
 
@@ -32,7 +35,8 @@ struct TNodeOptions
 	template <class VISITOR>
 	void visit(VISITOR& v)
 	{
-		v.number("distance", distance, above(0), "A node each so many metres of 3D displacement (paper sec. 3.2)");
+		v.number(
+			"distance", distance, above(0), "A node each so many metres of 3D displacement (paper sec. 3.2)");
 	}
 };
 
@@ -59,10 +63,17 @@ struct TRoiOptions
 	template <class VISITOR>
 	void visit(VISITOR& v)
 	{
-		v.number("roi_radius", radius, above(0), "Candidates: nodes in this sphere round the present pose [m] (paper sec. 3.2)");
-		v.integer("max_candidates", max_candidates, atLeast(1), "Registrations a node at most, best predicted overlap first");
-		v.integer("min_node_gap", min_node_gap, atLeast(1), "Leave out nodes fewer than this many steps back");
-		v.number("min_overlap", min_overlap, between(0, 1), "Leave out pairs whose pictures are predicted to share less");
+		v.number(
+			"roi_radius", radius, above(0),
+			"Candidates: nodes in this sphere round the present pose [m] (paper sec. 3.2)");
+		v.integer(
+			"max_candidates", max_candidates, atLeast(1),
+			"Registrations a node at most, best predicted overlap first");
+		v.integer(
+			"min_node_gap", min_node_gap, atLeast(1), "Leave out nodes fewer than this many steps back");
+		v.number(
+			"min_overlap", min_overlap, between(0, 1),
+			"Leave out pairs whose pictures are predicted to share less");
 	}
 };
 
@@ -71,8 +82,8 @@ struct TGateOptions
 {
 	std::string kind{"mahalanobis"};
 	double confidence{0.999};
-	double max_jump{10};  ///< [m]
-	double sigma_floor_xyz{0.02};  ///< [m]
+	double max_jump{10};										   ///< [m]
+	double sigma_floor_xyz{0.02};								   ///< [m]
 	double sigma_floor_angle{0.5 * 3.14159265358979323846 / 180};  ///< [rad]
 
 	template <class VISITOR>
@@ -80,11 +91,20 @@ struct TGateOptions
 	{
 		v.choice(
 			"gate", kind, {"mahalanobis", "jump"},
-			"mahalanobis: chi-square against the graph's own prediction; jump: the paper's authors' distance limit");
-		v.number("gate_confidence", confidence, between(0.5, 0.999999999), "Share of true registrations that pass");
-		v.number("max_jump", max_jump, above(0), "jump: largest difference to the prediction [m] (authors' code: 10)");
-		v.number("sigma_floor_xyz", sigma_floor_xyz, atLeast(0), "Least sigma of a predicted translation axis [m]");
-		v.degrees("sigma_floor_angle", sigma_floor_angle, atLeast(0), "Least sigma of a predicted rotation axis [deg]");
+			"mahalanobis: chi-square against the graph's own prediction; jump: the paper's authors' distance "
+			"limit");
+		v.number(
+			"gate_confidence", confidence, between(0.5, 0.999999999),
+			"Share of true registrations that pass");
+		v.number(
+			"max_jump", max_jump, above(0),
+			"jump: largest difference to the prediction [m] (authors' code: 10)");
+		v.number(
+			"sigma_floor_xyz", sigma_floor_xyz, atLeast(0),
+			"Least sigma of a predicted translation axis [m]");
+		v.degrees(
+			"sigma_floor_angle", sigma_floor_angle, atLeast(0),
+			"Least sigma of a predicted rotation axis [deg]");
 	}
 };
 
@@ -98,7 +118,8 @@ struct TGraphLossOptions
 	void visit(VISITOR& v)
 	{
 		v.choice("loss", loss, {"none", "huber", "cauchy"}, "Robust loss of the stereo edges");
-		v.number("loss_scale", scale, above(0), "Mahalanobis distance where the loss departs from quadratic [-]");
+		v.number(
+			"loss_scale", scale, above(0), "Mahalanobis distance where the loss departs from quadratic [-]");
 	}
 };
 
@@ -111,8 +132,12 @@ struct TLevMarqOptions
 	template <class VISITOR>
 	void visit(VISITOR& v)
 	{
-		v.number("optimization_distance", optimization_distance, anyNumber(), "CLevMarqGSO: only nodes so near [m]; -1: all");
-		v.integer("LC_min_nodeid_diff", lc_min_nodeid_diff, atLeast(1), "CLevMarqGSO: node-id gap of a loop closing");
+		v.number(
+			"optimization_distance", optimization_distance, anyNumber(),
+			"CLevMarqGSO: only nodes so near [m]; -1: all");
+		v.integer(
+			"LC_min_nodeid_diff", lc_min_nodeid_diff, atLeast(1),
+			"CLevMarqGSO: node-id gap of a loop closing");
 	}
 };
 }  // namespace posidonia

@@ -28,7 +28,8 @@ struct TStereoSlamOptions
 	TGraphLossOptions loss;
 	TLevMarqOptions levmarq;
 
-	/** Online, each node brings a new graph: far below the noise is near enough (the next one starts from there). */
+	/** Online, each node brings a new graph: far below the noise is near enough (the next one starts from
+	 * there). */
 	TStereoSlamOptions()
 	{
 		optimizer.min_relative_decrease = 1e-5;
@@ -58,17 +59,21 @@ class CRelativeUncertainty
    public:
 	virtual ~CRelativeUncertainty() = default;
 	/** Covariances over (rho, phi) of T_i_j for one j and many i; nodes of the last optimisation. */
-	virtual std::vector<Matrix6d> relativeCovariances(const CSlamMap& map, const std::vector<int>& is, int j) = 0;
+	virtual std::vector<Matrix6d> relativeCovariances(
+		const CSlamMap& map, const std::vector<int>& is, int j) = 0;
 };
 
-/** Without marginals: covariances of the odometry edges from i to j composed along the chain, as if independent. */
+/** Without marginals: covariances of the odometry edges from i to j composed along the chain, as if
+ * independent. */
 class CChainUncertainty : public CRelativeUncertainty
 {
    public:
-	std::vector<Matrix6d> relativeCovariances(const CSlamMap& map, const std::vector<int>& is, int j) override;
+	std::vector<Matrix6d> relativeCovariances(
+		const CSlamMap& map, const std::vector<int>& is, int j) override;
 };
 
-/** What the engine, its deciders and its optimiser share. The engine's owner makes it; it must outlive them. */
+/** What the engine, its deciders and its optimiser share. The engine's owner makes it; it must outlive them.
+ */
 struct TSlamParts
 {
 	TSlamParts(
@@ -85,7 +90,8 @@ struct TSlamParts
 	const CLoopGate gate;
 	CSlamMap map;
 	CChainUncertainty chain_uncertainty;
-	CRelativeUncertainty* uncertainty{&chain_uncertainty};	///< The optimiser puts itself here if it has marginals
+	CRelativeUncertainty* uncertainty{
+		&chain_uncertainty};  ///< The optimiser puts itself here if it has marginals
 	mutable mrpt::system::CTimeLogger timer{true, "stages", true};
 
 	/** The rig of a stereo observation's label, from the sensors.ini. Made at the first pair. */

@@ -15,8 +15,9 @@ class CSequentialStereoERD : public CStereoERD
 	EEdgeKind kind() const override { return EEdgeKind::SEQUENTIAL; }
 };
 
-/** The paper's loop closings (sec. 3.2): every previous node in a sphere (Region of Interest) round the present pose,
- * here the best few by predicted overlap of the pictures; the rest is recorded as over budget. */
+/** The paper's loop closings (sec. 3.2): every previous node in a sphere (Region of Interest) round the
+ * present pose, here the best few by predicted overlap of the pictures; the rest is recorded as over budget.
+ */
 class CRoiStereoERD : public CStereoERD
 {
    protected:

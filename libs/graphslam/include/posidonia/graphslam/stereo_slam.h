@@ -16,16 +16,18 @@ struct TCausalPose
 	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};
 };
 
-/** Stereo graph-SLAM as one object: observations go in, in order of arrival; poses come out. It owns the odometry, the
- * deciders, the optimiser and the MRPT engine that runs them; no one outside needs to include the engine. */
+/** Stereo graph-SLAM as one object: observations go in, in order of arrival; poses come out. It owns the
+ * odometry, the deciders, the optimiser and the MRPT engine that runs them; no one outside needs to include
+ * the engine. */
 class CStereoSlam
 {
    public:
 	/** @param config_file ini that MRPT's engine and its own optimiser read (may be empty: their defaults)
 	 * Throws CError for an unknown decider or optimiser, with the names that are known. */
 	CStereoSlam(
-		const TStereoSlamOptions& options, const TSensorSuite& sensors, std::unique_ptr<COdometrySource> odometry,
-		std::unique_ptr<CStereoImageLoader> images, const std::string& config_file = "");
+		const TStereoSlamOptions& options, const TSensorSuite& sensors,
+		std::unique_ptr<COdometrySource> odometry, std::unique_ptr<CStereoImageLoader> images,
+		const std::string& config_file = "");
 	~CStereoSlam();
 
 	void add(const mrpt::obs::CObservation::Ptr& observation);

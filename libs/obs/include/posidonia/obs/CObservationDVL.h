@@ -17,7 +17,7 @@ class CObservationDVL : public mrpt::obs::CObservation
 
    public:
 	mrpt::math::TVector3D velocity{0, 0, 0};  ///< Over ground, instrument frame [m/s]
-	bool velocity_valid{false};	 ///< Bottom lock?
+	bool velocity_valid{false};				  ///< Bottom lock?
 	/** Covariance of `velocity` [(m/s)^2]; all zero: not known, take that of sensors.ini. */
 	mrpt::math::CMatrixDouble33 velocity_covariance;
 	double altitude{0};	 ///< Height of the instrument over the ground [m]

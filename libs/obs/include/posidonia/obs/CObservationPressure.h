@@ -11,7 +11,7 @@ class CObservationPressure : public mrpt::obs::CObservation
 	DEFINE_SERIALIZABLE(CObservationPressure, posidonia)
 
    public:
-	double pressure{0};	 ///< Absolute [Pa]
+	double pressure{0};				  ///< Absolute [Pa]
 	mrpt::poses::CPose3D sensorPose;  ///< T_body_pressure
 
 	void getSensorPose(mrpt::poses::CPose3D& out) const override { out = sensorPose; }

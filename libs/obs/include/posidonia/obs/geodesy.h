@@ -18,7 +18,7 @@ struct TWorldOptions
 struct TGeodetic
 {
 	double latitude{0}, longitude{0};  ///< [deg]
-	double height{0};  ///< Above the ellipsoid [m]
+	double height{0};				   ///< Above the ellipsoid [m]
 };
 
 /** North, east, down [m] of a geodetic position from the datum (at height 0). */

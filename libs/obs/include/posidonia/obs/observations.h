@@ -22,13 +22,16 @@ struct TImuReading
 };
 /** Empty where the observation carries no rates and forces (an AHRS only). */
 std::optional<TImuReading> imuReadingOf(const mrpt::obs::CObservationIMU& imu);
-/** Attitude of the sensor in map axes (quaternion if present, else yaw, pitch, roll); empty where there is none. */
+/** Attitude of the sensor in map axes (quaternion if present, else yaw, pitch, roll); empty where there is
+ * none. */
 std::optional<Eigen::Matrix3d> attitudeOf(const mrpt::obs::CObservationIMU& ahrs);
 
 mrpt::obs::CObservationIMU::Ptr makeImu(
-	const std::string& label, double stamp, const Eigen::Isometry3d& T_body_sensor, const TImuReading& reading);
+	const std::string& label, double stamp, const Eigen::Isometry3d& T_body_sensor,
+	const TImuReading& reading);
 mrpt::obs::CObservationIMU::Ptr makeAhrs(
-	const std::string& label, double stamp, const Eigen::Isometry3d& T_body_sensor, const Eigen::Matrix3d& R_map_sensor);
+	const std::string& label, double stamp, const Eigen::Isometry3d& T_body_sensor,
+	const Eigen::Matrix3d& R_map_sensor);
 /** A stereo observation whose pictures are the files `left_name` and `right_name` of the images folder. */
 mrpt::obs::CObservationStereoImages::Ptr makeStereo(
 	const std::string& label, double stamp, const TStereoSpec& spec, const std::string& left_name,
@@ -41,12 +44,14 @@ struct TGreyPair
 {
 	cv::Mat left, right;
 };
-/** Finds and reads the pictures of stereo observations: external files below <rawlog>_Images/, or embedded ones. */
+/** Finds and reads the pictures of stereo observations: external files below <rawlog>_Images/, or embedded
+ * ones. */
 class CStereoImageLoader
 {
    public:
 	explicit CStereoImageLoader(const std::string& rawlog_path);
-	/** Reads both pictures, grey; nothing is kept. Throws CError naming rawlog, stamp, file and folder. Thread-safe. */
+	/** Reads both pictures, grey; nothing is kept. Throws CError naming rawlog, stamp, file and folder.
+	 * Thread-safe. */
 	TGreyPair load(const mrpt::obs::CObservationStereoImages& pair) const;
 	const std::string& folder() const { return m_folder; }
 

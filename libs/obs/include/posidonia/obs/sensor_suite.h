@@ -8,15 +8,15 @@
 #include <string>
 
 /** What a rawlog has no place for: noise densities, sigmas, rates, poses and calibration of each sensorLabel.
- * They live in <name>.sensors.ini, one section a label with its `kind`; the run's ini may override single keys
- * in a section [Sensor.<label>]. */
+ * They live in <name>.sensors.ini, one section a label with its `kind`; the run's ini may override single
+ * keys in a section [Sensor.<label>]. */
 namespace posidonia
 {
 /** Pose and rate of any sensor. */
 struct TSensorMount
 {
 	std::vector<double> pose{0, 0, 0, 0, 0, 0};	 ///< x y z [m] yaw pitch roll [deg] of the sensor on the body
-	double rate{1};	 ///< [Hz]
+	double rate{1};								 ///< [Hz]
 
 	Eigen::Isometry3d T_body_sensor() const;
 	static std::vector<double> poseNumbers(const Eigen::Isometry3d& T_body_sensor);
@@ -34,9 +34,9 @@ struct TImuSpec : TSensorMount
 {
 	static constexpr const char* kind = "imu";
 	double gyro_noise_density{3.394e-4};  ///< [rad/s/sqrt(Hz)] (ADIS16448, uuv_simulator's IMU set)
-	double gyro_random_walk{3.879e-5};	///< [rad/s^2/sqrt(Hz)]
-	double accel_noise_density{4e-3};  ///< [m/s^2/sqrt(Hz)]
-	double accel_random_walk{6e-3};	 ///< [m/s^3/sqrt(Hz)]
+	double gyro_random_walk{3.879e-5};	  ///< [rad/s^2/sqrt(Hz)]
+	double accel_noise_density{4e-3};	  ///< [m/s^2/sqrt(Hz)]
+	double accel_random_walk{6e-3};		  ///< [m/s^3/sqrt(Hz)]
 	TImuSpec() { rate = 50; }
 
 	template <class VISITOR>
@@ -44,18 +44,22 @@ struct TImuSpec : TSensorMount
 	{
 		TSensorMount::visit(v);
 		v.number("gyroscope_noise_density", gyro_noise_density, atLeast(0), "White noise [rad/s/sqrt(Hz)]");
-		v.number("gyroscope_random_walk", gyro_random_walk, atLeast(0), "Bias random walk [rad/s^2/sqrt(Hz)]");
-		v.number("accelerometer_noise_density", accel_noise_density, atLeast(0), "White noise [m/s^2/sqrt(Hz)]");
-		v.number("accelerometer_random_walk", accel_random_walk, atLeast(0), "Bias random walk [m/s^3/sqrt(Hz)]");
+		v.number(
+			"gyroscope_random_walk", gyro_random_walk, atLeast(0), "Bias random walk [rad/s^2/sqrt(Hz)]");
+		v.number(
+			"accelerometer_noise_density", accel_noise_density, atLeast(0), "White noise [m/s^2/sqrt(Hz)]");
+		v.number(
+			"accelerometer_random_walk", accel_random_walk, atLeast(0), "Bias random walk [m/s^3/sqrt(Hz)]");
 	}
 };
 
-/** Attitude and heading reference (CObservationIMU with an orientation: the sensor's attitude in map axes). */
+/** Attitude and heading reference (CObservationIMU with an orientation: the sensor's attitude in map axes).
+ */
 struct TAhrsSpec : TSensorMount
 {
 	static constexpr const char* kind = "ahrs";
 	double sigma_roll_pitch{0.2 * M_PI / 180};	///< [rad]
-	double sigma_heading{0.5 * M_PI / 180};	 ///< [rad]
+	double sigma_heading{0.5 * M_PI / 180};		///< [rad]
 	TAhrsSpec() { rate = 20; }
 
 	template <class VISITOR>
@@ -70,7 +74,7 @@ struct TAhrsSpec : TSensorMount
 struct TDvlSpec : TSensorMount
 {
 	static constexpr const char* kind = "dvl";
-	double sigma_velocity{0.0015};	///< Each axis, one ping [m/s] (COLA2's simulated sensor)
+	double sigma_velocity{0.0015};		 ///< Each axis, one ping [m/s] (COLA2's simulated sensor)
 	double beam_angle{30 * M_PI / 180};	 ///< Off the instrument's z axis [rad]
 	TDvlSpec() { rate = 5; }
 
@@ -86,9 +90,9 @@ struct TDvlSpec : TSensorMount
 struct TPressureSpec : TSensorMount
 {
 	static constexpr const char* kind = "pressure";
-	double sigma{100};	///< [Pa] (1 cm)
+	double sigma{100};				  ///< [Pa] (1 cm)
 	double surface_pressure{101325};  ///< [Pa]
-	double water_density{1030};	 ///< [kg/m^3] (COLA2)
+	double water_density{1030};		  ///< [kg/m^3] (COLA2)
 	TPressureSpec() { rate = 5; }
 
 	/** Depth of the sensor below the surface [m] from absolute pressure [Pa]. */
@@ -180,7 +184,8 @@ const SPEC& posidonia::specOf(const std::map<std::string, SPEC>& entries, const 
 	const auto found = entries.find(label);
 	if (found == entries.end())
 		throw CError(
-			"sensor '" + label + "'", std::string("has no entry of kind ") + SPEC::kind + " in the sensors.ini",
+			"sensor '" + label + "'",
+			std::string("has no entry of kind ") + SPEC::kind + " in the sensors.ini",
 			"add a section [" + label + "], or give --assume-defaults");
 	return found->second;
 }
