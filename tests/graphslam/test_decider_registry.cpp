@@ -54,6 +54,10 @@ TEST(DeciderRegistry, unknownNamesAreErrorsWithTheKnownOnes)
 	setup = {};
 	setup.slam.slam.edge_deciders = " , ";
 	EXPECT_HOLDS(errorOfSetup(setup), "CEmptyERD");
+
+	setup = {};
+	setup.slam.slam.edge_deciders = "CRoiStereoERD CSequentialStereoERD CRoiStereoERD";
+	EXPECT_HOLDS(errorOfSetup(setup), "CRoiStereoERD is named twice");
 }
 
 TEST(DeciderRegistry, listsEveryName)

@@ -14,6 +14,7 @@ bool CStereoERD::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObserv
 	const auto pair = std::dynamic_pointer_cast<CObservationStereoImages>(observation);
 	if (!pair || map.nodeCount() == m_done_nodes) return true;
 	m_done_nodes = map.nodeCount();
+	m_just_inserted_lc = false;
 
 	const int j = map.lastNode();
 	m_parts->keyFrameOf(j, *pair);
@@ -93,7 +94,7 @@ TCandidateRow CStereoERD::judge(
 		return row;
 	}
 	m_parts->map.addEdge({i, j, kind(), row.T_from_to, information});
-	m_just_inserted_lc = kind() == EEdgeKind::ROI;
+	m_just_inserted_lc = m_just_inserted_lc || kind() == EEdgeKind::ROI;
 	m_edges++;
 	return row;
 }

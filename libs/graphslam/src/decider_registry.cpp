@@ -10,6 +10,7 @@
 #include <posidonia/graphslam/stereo_deciders.h>
 
 #include <algorithm>
+#include <set>
 
 namespace posidonia
 {
@@ -114,8 +115,14 @@ std::unique_ptr<TNodeDecider> makeNodeDecider(const std::string& name, TSlamPart
 std::unique_ptr<TEdgeDecider> makeEdgeDecider(const std::string& names, TSlamParts& parts)
 {
 	std::vector<std::unique_ptr<TEdgeDecider>> made;
-	for (const auto& name : words(names))
+	std::set<std::string> seen;
+	for (const auto& name : words(names)) {
+		if (!seen.insert(name).second)
+			throw CError(
+				"[Slam] edge_deciders", name + " is named twice",
+				"its edges would count twice: name it once");
 		made.push_back(make<TEdgeDecider>(registry().edge_regs_map, name, "edge decider", parts));
+	}
 	if (made.empty())
 		throw CError("[Slam] edge_deciders", "names no edge decider", "write CEmptyERD for odometry alone");
 	if (made.size() == 1) return std::move(made.front());

@@ -1,6 +1,7 @@
 #include <posidonia/graphslam/loop_candidates.h>
 #include <posidonia/graphslam/stereo_deciders.h>
 
+#include <algorithm>
 #include <set>
 
 namespace posidonia
@@ -54,6 +55,13 @@ void CCompositeERD::setGraphPtr(TSlamGraph* graph)
 	TPart::setGraphPtr(graph);
 	for (auto& part : m_decider_parts)
 		part->setGraphPtr(graph);
+}
+
+bool CCompositeERD::justInsertedLoopClosure() const
+{
+	return std::any_of(m_decider_parts.begin(), m_decider_parts.end(), [](const auto& part) {
+		return part->justInsertedLoopClosure();
+	});
 }
 
 void CCompositeERD::getEdgesStats(std::map<std::string, int>* edge_type_to_num) const

@@ -36,6 +36,7 @@ class CCompositeERD : public mrpt::graphslam::deciders::CEdgeRegistrationDecider
 		mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
 		mrpt::obs::CObservation::Ptr observation) override;
 	void setGraphPtr(TSlamGraph* graph) override;
+	bool justInsertedLoopClosure() const override;
 	void getEdgesStats(std::map<std::string, int>* edge_type_to_num) const override;
 
    private:
