@@ -56,9 +56,9 @@ struct TSequentialOptions
 struct TRoiOptions
 {
 	double radius{4.0};	 ///< [m]
-	int max_candidates{6};
+	int max_candidates{20};
 	int min_node_gap{5};
-	double min_overlap{0.2};
+	double min_overlap{0.35};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
