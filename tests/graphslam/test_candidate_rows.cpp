@@ -99,6 +99,7 @@ TEST(CandidateRows, noPairIsCountedTwice)
 	TSetup setup = secondExperiment();
 	setup.slam.sequential.neighbours = 7;
 	setup.slam.roi.min_node_gap = 3;
+	setup.slam.roi.min_overlap = 0.1;
 	setup.stop_at_nodes = 12;
 	const auto slam = run(setup);
 	std::set<std::pair<int, int>> seen;
