@@ -6,6 +6,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
+#include <utility>
 
 namespace posidonia
 {
@@ -58,11 +59,11 @@ bool beforeInImage(const cv::KeyPoint& a, const cv::KeyPoint& b)
 		   std::tie(b.pt.y, b.pt.x, a.response, b.size, b.angle, b.octave);
 }
 
-/** The image that the detector sees: equalised and shrunk as the options say. */
-cv::Mat prepared(const cv::Mat& image, const TFeatureOptions& o)
+/** The image that the detector sees: shrunk as the options say, equalised if told so. */
+cv::Mat prepared(const cv::Mat& image, const TFeatureOptions& o, bool equalise)
 {
 	cv::Mat out = image;
-	if (o.clahe) cv::createCLAHE(o.clahe_clip, cv::Size(8, 8))->apply(image, out = cv::Mat());
+	if (equalise) cv::createCLAHE(o.clahe_clip, cv::Size(8, 8))->apply(image, out = cv::Mat());
 	if (o.shrink > 1) cv::resize(out, out, out.size() / o.shrink, 0, 0, cv::INTER_AREA);
 	return out;
 }
@@ -76,6 +77,24 @@ cv::KeyPoint inWholeImage(cv::KeyPoint k, const TFeatureOptions& o)
 	k.pt = cv::Point2f((k.pt.x + 0.5f) * s - 0.5f, (k.pt.y + 0.5f) * s - 0.5f);
 	k.size *= s;
 	return k;
+}
+
+/** Key points of the prepared image and their descriptors; a picture that gives too few (sand, turbid water) is
+ * equalised and searched again. Detection and description in one call: SIFT's and ORB's pyramids are built once,
+ * and no descriptor ever meets another detector's key points. */
+std::pair<std::vector<cv::KeyPoint>, cv::Mat> detectAndDescribe(
+	const cv::Mat& image, const TFeatureOptions& options)
+{
+	std::vector<cv::KeyPoint> key_points;
+	cv::Mat descriptors;
+	const auto detector = makeDetector(options);
+	const auto search = [&](bool equalise) {
+		detector->detectAndCompute(prepared(image, options, equalise), {}, key_points, descriptors);
+	};
+	search(options.clahe);
+	const bool poor = static_cast<double>(key_points.size()) < options.poor_picture * options.max_features;
+	if (poor && !options.clahe) search(true);
+	return {std::move(key_points), descriptors};
 }
 }  // namespace
 
@@ -114,11 +133,7 @@ std::vector<int> spreadOverGrid(
 
 TFeatures detectFeatures(const cv::Mat& image, const TFeatureOptions& options)
 {
-	// Detection and description in one call: SIFT's and ORB's pyramids are built once, and no descriptor
-	// ever meets another detector's key points.
-	std::vector<cv::KeyPoint> all;
-	cv::Mat descriptors;
-	makeDetector(options)->detectAndCompute(prepared(image, options), {}, all, descriptors);
+	auto [all, descriptors] = detectAndDescribe(image, options);
 	for (auto& k : all)
 		k = inWholeImage(k, options);
 

@@ -55,8 +55,8 @@ struct TSequentialOptions
 /** Section [EdgeRegistrationDeciderParameters]: the paper's loop closings. */
 struct TRoiOptions
 {
-	double radius{4.0};	 ///< [m]
-	int max_candidates{20};
+	double radius{8.0};	 ///< [m]
+	int max_candidates{25};
 	int min_node_gap{5};
 	double min_overlap{0.35};
 

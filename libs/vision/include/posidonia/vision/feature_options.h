@@ -16,6 +16,7 @@ struct TFeatureOptions
 	double sift_contrast{0.02};
 	int orb_fast_threshold{7};
 	double akaze_threshold{0.0005};
+	double poor_picture{0.2};
 	bool clahe{false};
 	double clahe_clip{3};
 
@@ -48,6 +49,10 @@ struct TFeatureOptions
 		v.integer(
 			"orb_fast_threshold", orb_fast_threshold, between(1, 100), "ORB's FAST threshold [grey levels]");
 		v.number("akaze_threshold", akaze_threshold, between(1e-6, 0.1), "AKAZE detector threshold");
+		v.number(
+			"poor_picture", poor_picture, between(0, 1),
+			"Equalise and search again where fewer than this share of max_features is found; "
+			"0: never");
 		v.flag("clahe", clahe, "Equalise the contrast locally before detection (turbid water)");
 		v.number("clahe_clip", clahe_clip, between(0.1, 40), "Clip limit of that equalisation");
 		v.number("min_depth", min_depth, above(0), "Nearest point [m]");
