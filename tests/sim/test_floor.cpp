@@ -147,6 +147,4 @@ TEST(Floor, ErrorsNameThePictureAndTheWayOut)
 	const CTempFolder folder;
 	o.image = folder.write("no.jpg", "text");
 	EXPECT_HOLDS(errorOf<CError>([&] { CFloorTexture(o, 1); }), "no picture");
-	EXPECT_HOLDS(errorOf<CError>([&] { findImage("no.png", {folder.path(), "/tmp/x"}); }), folder / "no.png");
-	EXPECT_EQ(findImage("no.jpg", {"/tmp/x", folder.path()}), folder / "no.jpg");
 }

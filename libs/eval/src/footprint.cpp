@@ -47,13 +47,6 @@ TPolygon intersection(const TPolygon& a, const TPolygon& b)
 	return common.size() < 3 ? TPolygon{} : common;
 }
 
-Eigen::Isometry3d downLooking()
-{
-	Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
-	T_body_cam.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-	return T_body_cam;
-}
-
 TPolygon footprint(const TFootprintCamera& camera, const Eigen::Isometry3d& T_map_body)
 {
 	const TStereoCamera& c = camera.camera;

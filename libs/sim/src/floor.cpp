@@ -3,7 +3,6 @@
 #include <posidonia/sim/floor.h>
 #include <posidonia/sim/random.h>
 
-#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -108,19 +107,6 @@ cv::Mat floorOf(const TFloorOptions& o, uint64_t seed)
 	return floor;
 }
 }  // namespace
-
-std::string findImage(const std::string& image, const std::vector<std::string>& folders)
-{
-	namespace fs = std::filesystem;
-	if (fs::path(image).is_absolute()) return requireFile(image, "correct [Floor] image"), image;
-	std::string tried;
-	for (const auto& folder : folders) {
-		const fs::path path = fs::path(folder) / image;
-		if (fs::is_regular_file(path)) return path.string();
-		tried += (tried.empty() ? "" : ", ") + path.string();
-	}
-	throw CError("[Floor] image = " + image, "not found; looked for " + tried, "give an absolute path");
-}
 
 CFloorTexture::CFloorTexture(const TFloorOptions& options, uint64_t seed) : m_resolution(options.resolution)
 {

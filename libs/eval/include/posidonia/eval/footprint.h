@@ -15,15 +15,12 @@ double area(const TPolygon& polygon);
 /** Common part of two convex polygons (Sutherland and Hodgman 1974). */
 TPolygon intersection(const TPolygon& a, const TPolygon& b);
 
-/** x starboard, y aft, z down, in a forward-starboard-down body, at its origin. */
-Eigen::Isometry3d downLooking();
-
 /** A camera on a body over a flat floor. */
 struct TFootprintCamera
 {
-	TStereoCamera camera;  ///< the left image counts
-	Eigen::Isometry3d T_body_cam{downLooking()};
-	double floor_depth{6.0};  ///< z of the floor in the north-east-down world [m]
+	TStereoCamera camera;								///< the left image counts
+	Eigen::Isometry3d T_body_cam{downLookingCamera()};	///< at the body's origin unless told
+	double floor_depth{6.0};							///< z of the floor in the north-east-down world [m]
 };
 
 /** What the left image covers of the floor, in the world's (x, y) [m]: corners of the image (at half a pixel

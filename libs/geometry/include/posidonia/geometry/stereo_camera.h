@@ -4,6 +4,15 @@
 
 namespace posidonia
 {
+/** R_body_camera of the down-looking rig in a forward-starboard-down body: camera x = starboard, y = aft,
+ * z = down. */
+inline Eigen::Matrix3d downLookingCamera()
+{
+	Eigen::Matrix3d R;
+	R << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // columns: camera x, y, z in body axes
+	return R;
+}
+
 /** A rectified stereo pair: same intrinsics on both sides, rows aligned.
  * Camera axes: x right, y down, z forward (OpenCV); the right camera is at (+baseline, 0, 0) of the left. */
 struct TStereoCamera

@@ -60,10 +60,6 @@ class CFloorTexture
 	std::vector<cv::Mat> m_levels;
 };
 
-/** `image` as an existing path: absolute, or found below one of `folders`. Throws CError that lists where it
- * looked. */
-std::string findImage(const std::string& image, const std::vector<std::string>& folders);
-
 /** Feature-poor sand and high-contrast rock, CV_8UC1; pixels are `resolution` [m] wide. */
 cv::Mat proceduralSand(cv::Size size, double resolution, uint64_t seed);
 cv::Mat proceduralRock(cv::Size size, double resolution, uint64_t seed);
