@@ -1,7 +1,8 @@
 # posidonia_add_library(obs [SHARED] SOURCES a.cpp b.cpp DEPENDS ... [PRIVATE_DEPENDS ...])
 #   -> target posidonia_obs, alias posidonia::obs, headers under include/posidonia/obs/
 # posidonia_add_app(auv-sim SOURCES auv-sim_main.cpp DEPENDS ...)
-# posidonia_add_test(obs SOURCES test_a.cpp DEPENDS ...) -> one test program a library, one ctest entry a test
+# posidonia_add_test(obs SOURCES test_a.cpp DEPENDS ... [SHARDS 2]) -> one test program a library, one ctest entry a
+#   test; with SHARDS so many entries in all, for tests that share a fixture which is dear to make
 
 add_library(posidonia_build_flags INTERFACE)
 target_compile_features(posidonia_build_flags INTERFACE cxx_std_17)
@@ -47,7 +48,7 @@ function(posidonia_add_app name)
 endfunction()
 
 function(posidonia_add_test name)
-	cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+	cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;DEPENDS" ${ARGN})
 	add_executable(test_${name} ${ARG_SOURCES})
 	set_target_properties(test_${name} PROPERTIES CXX_EXTENSIONS OFF)
 	target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest GTest::gtest_main posidonia_build_flags)
@@ -57,5 +58,14 @@ function(posidonia_add_test name)
 		POSIDONIA_LIB_DIR="${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 	target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
 	include(GoogleTest)
+	if(ARG_SHARDS)
+		foreach(shard RANGE 1 ${ARG_SHARDS})
+			math(EXPR index "${shard} - 1")
+			add_test(NAME ${name}.shard${shard}of${ARG_SHARDS} COMMAND test_${name})
+			set_tests_properties(${name}.shard${shard}of${ARG_SHARDS} PROPERTIES TIMEOUT 1800
+				ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index}")
+		endforeach()
+		return()
+	endif()
 	gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -81,7 +81,7 @@ void CEkfOdometry::add(const CObservation& o)
 		TSensorCount& count = m_statistics.sensors[o.sensorLabel];
 		if (isLate(t, count)) return;
 		predictTo(t, m_rate.rate);
-		count.used++;
+		count.use(t);
 	}
 }
 
@@ -123,16 +123,41 @@ void CEkfOdometry::startIfComplete()
 
 bool CEkfOdometry::fuse(const CMeasurement& measurement, bool increments, TSensorCount& count)
 {
-	if (!m_nav.update(measurement)) {
+	bool accepted = m_nav.update(measurement);
+	if (!accepted && isContradictedForTooLong(measurement, count)) {
+		m_nav.giveWay(measurement);
+		if (increments) m_edge.giveWay(measurement);
+		count.gave_way++;
+		accepted = true;
+	}
+	// One gate decides for both filters: they must have seen the same world.
+	else if (accepted && increments)
+		m_edge.updateUngated(measurement);
+	if (!accepted) {
 		count.gated++;
 		count.gated_in_row++;
 		return false;
 	}
-	// One gate decides for both filters: they must have seen the same world.
-	if (increments) m_edge.updateUngated(measurement);
-	count.used++;
-	count.gated_in_row = 0;
+	count.use(m_stamp);
+	m_contradictions[&count].count = 0;
 	return true;
+}
+
+bool CEkfOdometry::isContradictedForTooLong(const CMeasurement& refused, const TSensorCount& count)
+{
+	TContradiction& c = m_contradictions[&count];
+	// Outliers contradict each other too; a filter that is lost sees the same innovation again and again, but
+	// for the noise of two readings (chi-square, 3 dof, 99.9 %) or a share for what the vehicle does
+	// meanwhile.
+	const Vector3d innovation = m_nav.innovation(refused), change = innovation - c.innovation;
+	constexpr double kNoise = 2 * 16.3, kShare = 0.25;
+	const bool agrees = change.dot(refused.noise().llt().solve(change)) < kNoise ||
+						change.norm() < kShare * innovation.norm();
+	if (c.count == 0 || !agrees) c = {0, m_stamp, innovation};
+	c.count++;
+	c.innovation = innovation;
+	return m_options.give_way_after > 0 && c.count >= m_options.give_way_after &&
+		   m_stamp - c.since >= m_options.give_way_time;
 }
 
 void CEkfOdometry::addImu(const CObservationIMU& imu, double t)
@@ -165,7 +190,7 @@ void CEkfOdometry::addRate(const CObservationIMU& imu, double t, TSensorCount& c
 	predictTo(t, m_has_rate ? Vector3d(0.5 * (m_rate.rate + rate)) : rate);
 	m_rate.rate = rate;
 	m_has_rate = true;
-	count.used++;
+	count.use(t);
 	startIfComplete();
 }
 

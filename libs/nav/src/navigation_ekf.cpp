@@ -67,6 +67,14 @@ void CNavigationEKF::updateUngated(const CMeasurement& measurement)
 	fuse(measurement, false);
 }
 
+void CNavigationEKF::giveWay(const CMeasurement& measurement)
+{
+	const int row = measurement.block();
+	const Matrix3d seen = measurement.jacobian(m_nominal).middleCols<3>(row);
+	P().block<3, 3>(row, row) += innovation(measurement).squaredNorm() * seen.transpose() * seen;
+	updateUngated(measurement);
+}
+
 void CNavigationEKF::fuse(const CMeasurement& measurement, bool gated)
 {
 	m_input.dt = 0;

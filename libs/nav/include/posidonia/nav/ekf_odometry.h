@@ -59,8 +59,10 @@ class CEkfOdometry : public COdometrySource
 	bool isLate(double t, TSensorCount& count) const;
 	void predictTo(double t, const Eigen::Vector3d& rate);
 	void startIfComplete();
-	/** Fuses and counts; an increments' sensor goes to the edge filter too. */
+	/** Fuses and counts; an increments' sensor goes to the edge filter too. False: refused. */
 	bool fuse(const CMeasurement& measurement, bool increments, TSensorCount& count);
+	/** Has the sensor contradicted the filter steadily for too long? Called at each refusal. */
+	bool isContradictedForTooLong(const CMeasurement& refused, const TSensorCount& count);
 	TReading reading(double t) const;
 	Eigen::Isometry3d T_dr_body() const;
 	bool isFresh(const TReading& r) const;
@@ -74,6 +76,14 @@ class CEkfOdometry : public COdometrySource
 	CNavigationEKF m_nav, m_edge;
 	CPoseInitializer m_initializer;
 	TNavStatistics m_statistics;
+	/** A sensor's refusals in a row that agree with each other. */
+	struct TContradiction
+	{
+		int count{0};
+		double since{0};  ///< Stamp of the first [s]
+		Eigen::Vector3d innovation{0, 0, 0};
+	};
+	std::map<const TSensorCount*, TContradiction> m_contradictions;
 
 	bool m_ready{false}, m_has_rate{false};
 	double m_stamp{std::numeric_limits<double>::quiet_NaN()};

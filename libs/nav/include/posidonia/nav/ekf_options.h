@@ -16,6 +16,8 @@ struct TEkfOptions
 	double sigma_initial_gyro_bias{
 		0.0087};  ///< [rad/s], turn-on bias of ADIS16448 in uuv_simulator's IMU set
 	double gate_probability{0.999};
+	int give_way_after{10};
+	double give_way_time{5.0};	///< [s]
 	double max_dvl_speed{3.0};
 	double unary_max_age{1.0};
 	bool use_gps{true};
@@ -36,6 +38,11 @@ struct TEkfOptions
 		v.number(
 			"gate_probability", gate_probability, between(0.5, 0.999999),
 			"Part of the good measurements that the chi-square gates let pass");
+		v.integer(
+			"give_way_after", give_way_after, atLeast(0),
+			"The filter gives way to a sensor after so many refusals in a row that agree with each other; 0: "
+			"never");
+		v.number("give_way_time", give_way_time, atLeast(0), "... and that last so long, at least [s]");
 		v.number("max_dvl_speed", max_dvl_speed, above(0), "A DVL axis beyond this counts as invalid [m/s]");
 		v.number("unary_max_age", unary_max_age, atLeast(0), "Oldest absolute reading handed to a node [s]");
 		v.flag("use_gps", use_gps, "Fuse GPS fixes");

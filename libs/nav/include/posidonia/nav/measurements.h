@@ -18,6 +18,8 @@ class CMeasurement
 	virtual int degreesOfFreedom() const = 0;
 	virtual Eigen::Vector3d predicted(const TNavigationState& x) const = 0;
 	virtual Jacobian jacobian(const TNavigationState& x) const = 0;
+	/** First of the three rows of the state that the sensor is there for. */
+	virtual ENavigationRow block() const = 0;
 	const Eigen::Vector3d& value() const { return m_z; }
 	const Eigen::Matrix3d& noise() const { return m_noise; }
 
@@ -46,6 +48,7 @@ class CDvlMeasurement : public CMeasurement
 	int degreesOfFreedom() const override { return 3; }
 	Eigen::Vector3d predicted(const TNavigationState& x) const override;
 	Jacobian jacobian(const TNavigationState& x) const override;
+	ENavigationRow block() const override { return kVelocity; }
 
    private:
 	Eigen::Matrix3d m_R_dvl_body;
@@ -60,6 +63,7 @@ class CDepthMeasurement : public CMeasurement
 	int degreesOfFreedom() const override { return 1; }
 	Eigen::Vector3d predicted(const TNavigationState& x) const override;
 	Jacobian jacobian(const TNavigationState& x) const override;
+	ENavigationRow block() const override { return kPosition; }
 
    private:
 	Eigen::Vector3d m_lever;
@@ -73,6 +77,7 @@ class CHorizontalMeasurement : public CMeasurement
 	int degreesOfFreedom() const override { return 2; }
 	Eigen::Vector3d predicted(const TNavigationState& x) const override;
 	Jacobian jacobian(const TNavigationState& x) const override;
+	ENavigationRow block() const override { return kPosition; }
 
    private:
 	Eigen::Vector3d m_lever;
@@ -86,6 +91,7 @@ class CAttitudeMeasurement : public CMeasurement
 	int degreesOfFreedom() const override { return 3; }
 	Eigen::Vector3d predicted(const TNavigationState& x) const override;
 	Jacobian jacobian(const TNavigationState& x) const override;
+	ENavigationRow block() const override { return kAttitude; }
 
    private:
 	Eigen::Matrix3d m_R_map_body;
@@ -99,6 +105,7 @@ class CGravityMeasurement : public CMeasurement
 	int degreesOfFreedom() const override { return 2; }
 	Eigen::Vector3d predicted(const TNavigationState& x) const override;
 	Jacobian jacobian(const TNavigationState& x) const override;
+	ENavigationRow block() const override { return kAttitude; }
 };
 
 /** Covariance in body axes of an attitude error given by sigmas about map axes. */

@@ -32,6 +32,16 @@ class CNavigationEKF : public mrpt::bayes::CKalmanFilterCapable<kNavigationSize,
 	bool update(const CMeasurement& measurement);
 	/** As update(), without the gate. */
 	void updateUngated(const CMeasurement& measurement);
+	/** Gives way to a sensor that the filter has contradicted for too long: the part of the sensor's block
+	 * that it sees becomes as uncertain as the disagreement is large, then the measurement is fused without
+	 * the gate.
+	 */
+	void giveWay(const CMeasurement& measurement);
+	/** What the sensor reads over what the filter expects. */
+	Eigen::Vector3d innovation(const CMeasurement& measurement) const
+	{
+		return measurement.value() - measurement.predicted(m_nominal);
+	}
 	/** Copies the present pose and its correlations into the clone. */
 	void clone();
 	/** Starts an edge: horizontal position zero and exact, attitude and gyro bias those of `reference` with
