@@ -9,7 +9,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <iostream>
 
 namespace fs = std::filesystem;
 
@@ -27,35 +26,15 @@ bool CEkfApp::initialize(int argc, const char* const* argv)
 		"all observations as read plus the filter's poses (CObservationRobotPose, label EKF). The drift of\n"
 		"[OdometryCorruption] is left out.\n"
 		"Example: auv-ekf -c ini/paper-exp2.ini -r data/paper-exp2.rawlog");
-	auto& cmd = line.cmd();
-	TCLAP::ValueArg<std::string> rawlog("r", "rawlog", "Rawlog to replay", false, "", "FILE.rawlog", cmd);
-	TCLAP::ValueArg<std::string> truth(
-		"g", "ground-truth", "True trajectory, TUM (only for scoring)", false, "", "FILE.tum", cmd);
+	CReplayCommand replay(line);
 	TCLAP::ValueArg<double> rate(
-		"", "rate", "At most so many poses a second (default: 10)", false, 10, "HZ", cmd);
-	TCLAP::SwitchArg assume(
-		"", "assume-defaults", "Without NAME.sensors.ini, take the sensors of SPARUS II", cmd);
+		"", "rate", "At most so many poses a second (default: 10)", false, 10, "HZ", line.cmd());
 	if (!line.parse(argc, argv)) return false;
 
-	if (!rawlog.isSet() && !line.wantsConfigDump())
-		throw CUsageError("-r/--rawlog", "is missing", "give the rawlog to replay");
 	if (!(rate.getValue() > 0)) throw CUsageError("--rate", "must be > 0", "give poses a second");
-	if (rawlog.isSet()) requireFile(rawlog.getValue(), "give an existing rawlog with -r/--rawlog");
-	CIniFile ini = line.ini();
-	m_log_sensors =
-		rawlog.isSet() ? sensorsOfRawlog(rawlog.getValue(), assume.getValue()) : TSensorSuite::sparus2();
-	m_sensors = m_log_sensors;
-	params = TExperiment::load(ini, m_sensors);
-	m_config_dump = ini.dump();
-	if (line.wantsConfigDump()) {
-		std::cout << m_config_dump;
-		return false;
-	}
-	m_rawlog = rawlog.getValue();
-	m_truth = truthFor(m_rawlog, truth.getValue());
+	if (!replay.load(line.ini(), m_input, params)) return false;
 	m_rate = rate.getValue();
-	m_verbosity = line.verbosity();
-	m_folder = std::make_unique<CRunFolder>(line.outputDir(), fs::path(m_rawlog).stem().string() + "-ekf");
+	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_input.name() + "-ekf");
 	return true;
 }
 
@@ -65,39 +44,39 @@ void CEkfApp::run()
 	m_results = {};
 	m_has_pictures = false;
 	m_results.folder = m_folder->path();
-	m_results.rawlog = m_folder->file(fs::path(m_rawlog).stem().string() + "-ekf.rawlog");
-	CRawlogReader reader(m_rawlog);
-	const auto odometry = params.makeCleanOdometry(m_sensors);
+	m_results.rawlog = m_folder->file(m_input.name() + "-ekf.rawlog");
+	CRawlogReader reader(m_input.rawlog);
+	const auto odometry = params.makeCleanOdometry(m_input.sensors);
 	CRawlogWriter writer(m_results.rawlog);
 	replay(*odometry, reader, writer);
 	if (m_results.ekf.empty())
 		throw CError(
-			m_rawlog, "the odometry never became ready",
+			m_input.rawlog, "the odometry never became ready",
 			"check its sensors with rawlog-edit --info, and [InitialPose] and [Odometry]");
 	writer.finish();
-	m_folder->write("config.ini", m_config_dump);
-	writeSensors(m_folder->file("sensors.ini"), m_sensors);
-	writeSensors(sensorsPathOf(m_results.rawlog), m_log_sensors);
+	m_folder->write("config.ini", m_input.config);
+	writeSensors(m_folder->file("sensors.ini"), m_input.sensors);
+	writeSensors(sensorsPathOf(m_results.rawlog), m_input.log_sensors);
 	writeTum(m_folder->file("ekf.tum"), m_results.ekf);
 	m_results.last = odometry->now();
 	summarize(m_results.last);
 	logSummary(
 		*odometry, reader, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 	if (m_has_pictures) linkImages();
-	if (!m_truth.empty()) score();
+	if (!m_input.truth.empty()) score();
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
-	m_folder->log("rawlog with poses: " + m_results.rawlog, m_verbosity);
-	m_folder->log("run folder: " + m_folder->path(), m_verbosity);
+	m_folder->log("rawlog with poses: " + m_results.rawlog, m_input.verbosity);
+	m_folder->log("run folder: " + m_folder->path(), m_input.verbosity);
 	m_folder->finish();
 }
 
 void CEkfApp::replay(COdometrySource& odometry, CRawlogReader& reader, CRawlogWriter& writer)
 {
-	CProgress progress("navigation filter", m_verbosity == 0);
+	CProgress progress("navigation filter", m_input.verbosity == 0);
 	while (const auto observation = reader.next()) {
 		if (IS_CLASS(*observation, CObservationRobotPose) && observation->sensorLabel == pose_label)
 			throw CError(
-				m_rawlog, std::string("holds poses labelled ") + pose_label + " already",
+				m_input.rawlog, std::string("holds poses labelled ") + pose_label + " already",
 				"remove them with rawlog-edit --remove-label " + std::string(pose_label));
 		const auto* pair = dynamic_cast<const CObservationStereoImages*>(observation.get());
 		m_has_pictures = m_has_pictures || (pair && pair->imageLeft.isExternallyStored());
@@ -130,10 +109,11 @@ void CEkfApp::writePose(const COdometrySource& odometry, CRawlogWriter& writer)
 
 void CEkfApp::linkImages()
 {
-	const fs::path images = imagesFolderOf(m_rawlog), link = imagesFolderOf(m_results.rawlog);
+	const fs::path images = imagesFolderOf(m_input.rawlog), link = imagesFolderOf(m_results.rawlog);
 	if (!fs::is_directory(images)) {
 		m_folder->log(
-			"warning: " + images.string() + "/ is not there; put it beside the new rawlog", m_verbosity + 1);
+			"warning: " + images.string() + "/ is not there; put it beside the new rawlog",
+			m_input.verbosity + 1);
 		return;
 	}
 	std::error_code problem;
@@ -143,7 +123,8 @@ void CEkfApp::linkImages()
 	if (problem)
 		throw CError(link.string(), "can't link the pictures: " + problem.message(), "choose another -o");
 	m_folder->log(
-		"pictures: " + link.filename().string() + " -> " + target.string() + " (not copied)", m_verbosity);
+		"pictures: " + link.filename().string() + " -> " + target.string() + " (not copied)",
+		m_input.verbosity);
 }
 
 void CEkfApp::summarize(const TPoseEstimate& last)
@@ -164,7 +145,8 @@ void CEkfApp::summarize(const TPoseEstimate& last)
 
 void CEkfApp::score()
 {
-	const auto evaluation = evaluateRun("ekf", m_results.ekf, readTrajectory(m_truth), params.evaluation);
+	const auto evaluation =
+		evaluateRun("ekf", m_results.ekf, readTrajectory(m_input.truth), params.evaluation);
 	m_results.metrics.insert(m_results.metrics.end(), evaluation.metrics.begin(), evaluation.metrics.end());
 	const auto value = [&](const char* what) { return metric(m_results.metrics, what); };
 	m_folder->log(
@@ -173,15 +155,15 @@ void CEkfApp::score()
 			"yaw+position-aligned",
 			value("ekf.ate.unaligned.mean"), value("ekf.ate.unaligned.max"), value("ekf.end_error.unaligned"),
 			value("ekf.ate.yaw_position.mean")),
-		m_verbosity);
-	m_folder->log("truth: " + m_truth, m_verbosity - 1);
+		m_input.verbosity);
+	m_folder->log("truth: " + m_input.truth, m_input.verbosity - 1);
 }
 
 void CEkfApp::logSummary(const COdometrySource& odometry, const CRawlogReader& reader, double seconds)
 {
-	m_folder->log(versionText(), m_verbosity - 1);
+	m_folder->log(versionText(), m_input.verbosity - 1);
 	const std::string losses = replayLosses(reader);
-	if (!losses.empty()) m_folder->log(losses, m_verbosity + 1);  // even when quiet
+	if (!losses.empty()) m_folder->log(losses, m_input.verbosity + 1);	// even when quiet
 	const auto value = [&](const char* what) { return metric(m_results.metrics, what); };
 	const double duration = value("navigation.duration");
 	m_folder->log(
@@ -189,15 +171,15 @@ void CEkfApp::logSummary(const COdometrySource& odometry, const CRawlogReader& r
 			"%zu observations, %.1f s, %.1f m, %zu poses; replayed in %.2f s (%.0f x real time)",
 			m_results.observations, duration, value("navigation.way"), m_results.ekf.size(), seconds,
 			duration / seconds),
-		m_verbosity);
+		m_input.verbosity);
 	const std::string statistics = navigationText(odometry);
-	if (!statistics.empty()) m_folder->log(statistics.substr(0, statistics.size() - 1), m_verbosity);
+	if (!statistics.empty()) m_folder->log(statistics.substr(0, statistics.size() - 1), m_input.verbosity);
 	m_folder->log(
 		mrpt::format(
 			"final sigmas: north %.3f m, east %.3f m, down %.3f m; yaw %.3f deg, pitch %.3f deg, roll %.3f "
 			"deg",
 			value("navigation.sigma_north"), value("navigation.sigma_east"), value("navigation.sigma_down"),
 			value("navigation.sigma_yaw"), value("navigation.sigma_pitch"), value("navigation.sigma_roll")),
-		m_verbosity);
+		m_input.verbosity);
 }
 }  // namespace posidonia

@@ -20,9 +20,7 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 		"candidate and, where NAME.gt.tum lies beside the rawlog or -g is given, the errors.\n"
 		"Example: auv-graphslam -c ini/paper-exp2.ini -r data/paper-exp2.rawlog");
 	auto& cmd = line.cmd();
-	TCLAP::ValueArg<std::string> rawlog("r", "rawlog", "Rawlog to replay", false, "", "FILE.rawlog", cmd);
-	TCLAP::ValueArg<std::string> truth(
-		"g", "ground-truth", "True trajectory, TUM (only for scoring)", false, "", "FILE.tum", cmd);
+	CReplayCommand replay(line);
 	TCLAP::ValueArg<std::string> nodes(
 		"n", "node-decider", "Overrides [Slam] node_decider", false, "", "NAME", cmd);
 	TCLAP::ValueArg<std::string> edges(
@@ -30,8 +28,6 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 	TCLAP::ValueArg<std::string> optimizer(
 		"", "optimizer", "Overrides [Slam] optimizer", false, "", "NAME", cmd);
 	TCLAP::SwitchArg list("", "list-deciders", "Print deciders and optimisers, and stop", cmd);
-	TCLAP::SwitchArg assume(
-		"", "assume-defaults", "Without NAME.sensors.ini, take the sensors of SPARUS II", cmd);
 	if (!line.parse(argc, argv)) return false;
 	if (list.getValue()) {
 		std::cout << listDeciders();
@@ -42,22 +38,8 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 	if (nodes.isSet()) ini.set("Slam.node_decider=" + nodes.getValue());
 	if (edges.isSet()) ini.set("Slam.edge_deciders=" + edges.getValue());
 	if (optimizer.isSet()) ini.set("Slam.optimizer=" + optimizer.getValue());
-	if (!rawlog.isSet() && !line.wantsConfigDump())
-		throw CUsageError("-r/--rawlog", "is missing", "give the rawlog to replay");
-	if (rawlog.isSet()) requireFile(rawlog.getValue(), "give an existing rawlog with -r/--rawlog");
-	m_sensors =
-		rawlog.isSet() ? sensorsOfRawlog(rawlog.getValue(), assume.getValue()) : TSensorSuite::sparus2();
-	params = TExperiment::load(ini, m_sensors);
-	m_config_dump = ini.dump();
-	if (line.wantsConfigDump()) {
-		std::cout << m_config_dump;
-		return false;
-	}
-	m_rawlog = rawlog.getValue();
-	m_truth = truthFor(m_rawlog, truth.getValue());
-	m_verbosity = line.verbosity();
-	m_folder =
-		std::make_unique<CRunFolder>(line.outputDir(), std::filesystem::path(m_rawlog).stem().string());
+	if (!replay.load(ini, m_input, params)) return false;
+	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_input.name());
 	return true;
 }
 
@@ -75,26 +57,26 @@ void CGraphSlamApp::run()
 {
 	m_results = {};
 	m_results.folder = m_folder->path();
-	m_folder->write("config.ini", m_config_dump);
-	writeSensors(m_folder->file("sensors.ini"), m_sensors);
-	CRawlogReader reader(m_rawlog);
+	m_folder->write("config.ini", m_input.config);
+	writeSensors(m_folder->file("sensors.ini"), m_input.sensors);
+	CRawlogReader reader(m_input.rawlog);
 	CStereoSlam slam(
-		params.slam, m_sensors, params.makeOdometry(m_sensors),
-		std::make_unique<CStereoImageLoader>(m_rawlog), m_folder->file("config.ini"));
+		params.slam, m_input.sensors, params.makeOdometry(m_input.sensors),
+		std::make_unique<CStereoImageLoader>(m_input.rawlog), m_folder->file("config.ini"));
 	const TSilencedAtEnd silenced{slam.timer()};
 	replay(slam, reader);
 	collect(slam, reader);
 	writeResults(slam);
 	logSummary(slam, reader);
-	if (!m_truth.empty()) score(slam);
+	if (!m_input.truth.empty()) score(slam);
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
-	m_folder->log("run folder: " + m_folder->path(), m_verbosity);
+	m_folder->log("run folder: " + m_folder->path(), m_input.verbosity);
 	m_folder->finish();
 }
 
 void CGraphSlamApp::replay(CStereoSlam& slam, CRawlogReader& reader)
 {
-	CProgress progress("graph-SLAM", m_verbosity == 0);
+	CProgress progress("graph-SLAM", m_input.verbosity == 0);
 	while (const auto observation = reader.next()) {
 		slam.add(observation);
 		if (!IS_CLASS(*observation, CObservationStereoImages) || slam.map().nodeCount() == 0) continue;
@@ -155,26 +137,26 @@ void CGraphSlamApp::writeResults(const CStereoSlam& slam)
 void CGraphSlamApp::score(const CStereoSlam&)
 {
 	const TScore score = scoreRun(
-		scoringOf(params, m_sensors), m_results.trajectories, m_folder->file("loops.csv"), m_truth,
-		*m_folder);
+		scoringOf(params, m_input.sensors), m_results.trajectories, m_folder->file("loops.csv"),
+		m_input.truth, *m_folder);
 	m_results.metrics.insert(m_results.metrics.end(), score.metrics.begin(), score.metrics.end());
-	if (!score.text.empty()) m_folder->log(score.text, m_verbosity);
-	m_folder->log(scoreSummary(score.metrics), m_verbosity);
-	m_folder->log("truth: " + m_truth, m_verbosity - 1);
+	if (!score.text.empty()) m_folder->log(score.text, m_input.verbosity);
+	m_folder->log(scoreSummary(score.metrics), m_input.verbosity);
+	m_folder->log("truth: " + m_input.truth, m_input.verbosity - 1);
 }
 
 void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& reader)
 {
-	m_folder->log(versionText(), m_verbosity - 1);
+	m_folder->log(versionText(), m_input.verbosity - 1);
 	const std::string losses = replayLosses(reader);
-	if (!losses.empty()) m_folder->log(losses, m_verbosity + 1);  // even when quiet
+	if (!losses.empty()) m_folder->log(losses, m_input.verbosity + 1);	// even when quiet
 	m_folder->log(
 		mrpt::format(
 			"%d nodes, %d sequential and %d ROI edges; chi2 %.1f (composed from the root: %.3g)",
 			m_results.nodes, m_results.sequential_edges, m_results.roi_edges, m_results.chi2,
 			m_results.dijkstra_chi2),
-		m_verbosity);
-	m_folder->log(candidateCounts(slam.map().candidates), m_verbosity);
-	m_folder->log(navigationText(slam.odometry()), m_verbosity - 1);
+		m_input.verbosity);
+	m_folder->log(candidateCounts(slam.map().candidates), m_input.verbosity);
+	m_folder->log(navigationText(slam.odometry()), m_input.verbosity - 1);
 }
 }  // namespace posidonia

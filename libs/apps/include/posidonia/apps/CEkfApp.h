@@ -1,7 +1,6 @@
 #pragma once
 
-#include <posidonia/apps/command_line.h>
-#include <posidonia/apps/experiment.h>
+#include <posidonia/apps/replay_command.h>
 #include <posidonia/apps/run_folder.h>
 #include <posidonia/obs/rawlog_reader.h>
 #include <posidonia/obs/rawlog_writer.h>
@@ -47,12 +46,9 @@ class CEkfApp
 	void score();
 	void logSummary(const COdometrySource& odometry, const CRawlogReader& reader, double seconds);
 
-	std::string m_rawlog, m_truth, m_config_dump;
-	TSensorSuite m_log_sensors;	 ///< As they stand beside the rawlog
-	TSensorSuite m_sensors;		 ///< With the ini's changes
-	double m_rate{10};			 ///< [Hz]
+	TReplayInput m_input;
+	double m_rate{10};	///< [Hz]
 	std::unique_ptr<CRunFolder> m_folder;
-	int m_verbosity{1};
 	bool m_has_pictures{false};	 ///< Does any observation refer to a picture file?
 	TResults m_results;
 };

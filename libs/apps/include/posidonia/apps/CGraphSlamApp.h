@@ -1,7 +1,6 @@
 #pragma once
 
-#include <posidonia/apps/command_line.h>
-#include <posidonia/apps/experiment.h>
+#include <posidonia/apps/replay_command.h>
 #include <posidonia/apps/run_folder.h>
 #include <posidonia/apps/run_texts.h>
 #include <posidonia/apps/scoring.h>
@@ -43,10 +42,8 @@ class CGraphSlamApp
 	void score(const CStereoSlam& slam);
 	void logSummary(const CStereoSlam& slam, const CRawlogReader& reader);
 
-	std::string m_rawlog, m_truth, m_config_dump;
-	TSensorSuite m_sensors;
+	TReplayInput m_input;
 	std::unique_ptr<CRunFolder> m_folder;
-	int m_verbosity{1};
 	TResults m_results;
 };
 }  // namespace posidonia
