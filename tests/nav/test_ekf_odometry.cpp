@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <posidonia/base/error.h>
 
-#include <chrono>
 #include <cstring>
 
 #include "nav_simulator.h"
@@ -312,21 +311,4 @@ TEST(EkfOdometry, TheSameObservationsGiveTheSameBytes)
 	EXPECT_EQ(0, std::memcmp(x.T.matrix().data(), y.T.matrix().data(), 16 * sizeof(double)));
 	EXPECT_EQ(0, std::memcmp(x.cov.data(), y.cov.data(), 36 * sizeof(double)));
 	EXPECT_GT(x.cov.norm(), 0);
-}
-
-TEST(EkfOdometry, AnAddTakesMicroseconds)
-{
-	TNavScene scene;
-	std::vector<mrpt::obs::CObservation::Ptr> log;
-	CNavSimulator(scene).run([&](const CObservation& o, const TNavTruth&) {
-		log.push_back(std::dynamic_pointer_cast<CObservation>(o.duplicateGetSmartPtr()));
-	});
-	CEkfOdometry odometry = odometryFor(scene);
-	const auto t0 = std::chrono::steady_clock::now();
-	for (const auto& o : log)
-		odometry.add(*o);
-	const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - t0;
-	const double each = spent.count() / double(log.size());
-	std::cout << log.size() << " observations, " << each << " us each\n";
-	EXPECT_LT(each, 200) << "tens of times slower than it should be";
 }

@@ -11,8 +11,7 @@ namespace
 {
 CFloorRenderer::TPair floorPair(double contrast)
 {
-	static const CFloorRenderer floor(
-		CFloorRenderer::proceduralTexture(3000, 5), 0.004, TStereoCamera());
+	static const CFloorRenderer floor(CFloorRenderer::proceduralTexture(3000, 5), 0.004, TStereoCamera());
 	auto pair = floor.render(CFloorRenderer::pose(0.4, -0.3, 2.5, 0.3), 0, 1);
 	// Water takes contrast, not brightness.
 	for (cv::Mat* m : {&pair.left, &pair.right})

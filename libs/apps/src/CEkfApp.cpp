@@ -165,12 +165,10 @@ void CEkfApp::logSummary(const COdometrySource& odometry, const CRawlogReader& r
 	const std::string losses = replayLosses(reader);
 	if (!losses.empty()) m_folder->log(losses, m_input.verbosity + 1);	// even when quiet
 	const auto value = [&](const char* what) { return metric(m_results.metrics, what); };
-	const double duration = value("navigation.duration");
 	m_folder->log(
 		mrpt::format(
-			"%zu observations, %.1f s, %.1f m, %zu poses; replayed in %.2f s (%.0f x real time)",
-			m_results.observations, duration, value("navigation.way"), m_results.ekf.size(), seconds,
-			duration / seconds),
+			"%zu observations, %.1f m, %zu poses; %s", m_results.observations, value("navigation.way"),
+			m_results.ekf.size(), speedText(value("navigation.duration"), seconds).c_str()),
 		m_input.verbosity);
 	const std::string statistics = navigationText(odometry);
 	if (!statistics.empty()) m_folder->log(statistics.substr(0, statistics.size() - 1), m_input.verbosity);

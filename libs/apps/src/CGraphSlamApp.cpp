@@ -4,7 +4,7 @@
 #include <posidonia/eval/trajectory_io.h>
 #include <posidonia/graphslam/decider_registry.h>
 
-#include <filesystem>
+#include <chrono>
 #include <iostream>
 
 namespace posidonia
@@ -55,6 +55,7 @@ struct TSilencedAtEnd
 
 void CGraphSlamApp::run()
 {
+	const auto start = std::chrono::steady_clock::now();  // for the log alone
 	m_results = {};
 	m_results.folder = m_folder->path();
 	m_folder->write("config.ini", m_input.config);
@@ -67,7 +68,7 @@ void CGraphSlamApp::run()
 	replay(slam, reader);
 	collect(slam, reader);
 	writeResults(slam);
-	logSummary(slam, reader);
+	logSummary(slam, reader, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 	if (!m_input.truth.empty()) score(slam);
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
 	m_folder->log("run folder: " + m_folder->path(), m_input.verbosity);
@@ -145,7 +146,7 @@ void CGraphSlamApp::score(const CStereoSlam&)
 	m_folder->log("truth: " + m_input.truth, m_input.verbosity - 1);
 }
 
-void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& reader)
+void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& reader, double seconds)
 {
 	m_folder->log(versionText(), m_input.verbosity - 1);
 	const std::string losses = replayLosses(reader);
@@ -157,6 +158,8 @@ void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& rea
 			m_results.dijkstra_chi2),
 		m_input.verbosity);
 	m_folder->log(candidateCounts(slam.map().candidates), m_input.verbosity);
+	const auto& poses = m_results.trajectories.slam;
+	m_folder->log(speedText(poses.back().stamp - poses.front().stamp, seconds), m_input.verbosity);
 	m_folder->log(navigationText(slam.odometry()), m_input.verbosity - 1);
 }
 }  // namespace posidonia

@@ -1,6 +1,8 @@
 #include <posidonia/apps/run_texts.h>
 #include <posidonia/base/files.h>
 
+#include <sys/resource.h>
+
 #include <filesystem>
 #include <map>
 
@@ -63,6 +65,15 @@ std::string replayLosses(const CRawlogReader& reader)
 		text += (text.empty() ? "" : "\n") +
 				mrpt::format("%zu robot actions left aside", reader.actionsLeftAside());
 	return text;
+}
+
+std::string speedText(double log_seconds, double seconds)
+{
+	rusage usage{};
+	getrusage(RUSAGE_SELF, &usage);
+	return mrpt::format(
+		"%.1f s of log in %.1f s (%.0f x real time), peak memory %.0f MB", log_seconds, seconds,
+		log_seconds / seconds, static_cast<double>(usage.ru_maxrss) / 1024);
 }
 
 std::string truthFor(const std::string& rawlog, const std::string& given)

@@ -79,9 +79,9 @@ cv::KeyPoint inWholeImage(cv::KeyPoint k, const TFeatureOptions& o)
 	return k;
 }
 
-/** Key points of the prepared image and their descriptors; a picture that gives too few (sand, turbid water) is
- * equalised and searched again. Detection and description in one call: SIFT's and ORB's pyramids are built once,
- * and no descriptor ever meets another detector's key points. */
+/** Key points of the prepared image and their descriptors; a picture that gives too few (sand, turbid water)
+ * is equalised and searched again. Detection and description in one call: SIFT's and ORB's pyramids are built
+ * once, and no descriptor ever meets another detector's key points. */
 std::pair<std::vector<cv::KeyPoint>, cv::Mat> detectAndDescribe(
 	const cv::Mat& image, const TFeatureOptions& options)
 {

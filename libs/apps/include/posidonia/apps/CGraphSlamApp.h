@@ -40,7 +40,7 @@ class CGraphSlamApp
 	void collect(const CStereoSlam& slam, const CRawlogReader& reader);
 	void writeResults(const CStereoSlam& slam);
 	void score(const CStereoSlam& slam);
-	void logSummary(const CStereoSlam& slam, const CRawlogReader& reader);
+	void logSummary(const CStereoSlam& slam, const CRawlogReader& reader, double seconds);
 
 	TReplayInput m_input;
 	std::unique_ptr<CRunFolder> m_folder;
