@@ -161,6 +161,7 @@ TEST(KeyFrame, claheFindsMoreInTurbidWater)
 		image->convertTo(*image, CV_8U, 0.1, 100);
 	TFeatureOptions raw, equalised;
 	equalised.clahe = true;
+	raw.poor_picture = 0;  // never equalised
 	const TStereoCamera camera;
 	EXPECT_GT(
 		CKeyFrameExtractor(equalised, camera).extract(images.left, images.right).size(),
