@@ -123,17 +123,16 @@ void CEkfOdometry::startIfComplete()
 
 bool CEkfOdometry::fuse(const CMeasurement& measurement, bool increments, TSensorCount& count)
 {
-	bool accepted = m_nav.update(measurement);
-	if (!accepted && isContradictedForTooLong(measurement, count)) {
+	if (m_nav.update(measurement)) {
+		// One gate decides for both filters: they must have seen the same world.
+		if (increments) m_edge.updateUngated(measurement);
+	}
+	else if (isContradictedForTooLong(measurement, count)) {
 		m_nav.giveWay(measurement);
 		if (increments) m_edge.giveWay(measurement);
 		count.gave_way++;
-		accepted = true;
 	}
-	// One gate decides for both filters: they must have seen the same world.
-	else if (accepted && increments)
-		m_edge.updateUngated(measurement);
-	if (!accepted) {
+	else {
 		count.gated++;
 		count.gated_in_row++;
 		return false;
