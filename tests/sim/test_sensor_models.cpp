@@ -194,7 +194,7 @@ TEST(SimulatedDvl, BeamsHoldTheVelocityAndEndOnTheFloor)
 {
 	TDvlSpec spec = TSensorSuite::sparus2().dvl.at("DVL");
 	CSimulatedDvl sensor("DVL", spec, quietRanges(), {}, kFloor, 1);
-	const Eigen::Matrix<double, 3, 4> beams = dvlBeams(spec);
+	const Eigen::Matrix<double, 3, 4> beams = spec.beams();
 	for (double t = 20; t < 100; t += 3) {
 		const auto state = livelyMotion().at(t);
 		const auto o = sensor.measure(state, t);

@@ -59,6 +59,18 @@ std::vector<double> TSensorMount::poseNumbers(const Isometry3d& T)
 	return {t.x(), t.y(), t.z(), ypr.x(), ypr.y(), ypr.z()};
 }
 
+Eigen::Matrix<double, 3, 4> TDvlSpec::beams() const
+{
+	const double down = T_body_sensor().linear()(2, 2) >= 0 ? 1 : -1;
+	Eigen::Matrix<double, 3, 4> unit;
+	for (int i = 0; i < 4; i++) {
+		const double azimuth = beam_azimuth + i * M_PI_2;
+		unit.col(i) << std::sin(beam_angle) * std::cos(azimuth), std::sin(beam_angle) * std::sin(azimuth),
+			down * std::cos(beam_angle);
+	}
+	return unit;
+}
+
 double TPressureSpec::depth(double p) const
 {
 	return (p - surface_pressure) / (water_density * kGravity);

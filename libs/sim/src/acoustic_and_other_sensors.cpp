@@ -21,15 +21,6 @@ typename OBSERVATION::Ptr makeObservation(
 }
 }  // namespace
 
-Eigen::Matrix<double, 3, 4> dvlBeams(const TDvlSpec& nominal)
-{
-	const double down = nominal.T_body_sensor().linear()(2, 2) >= 0 ? 1 : -1;
-	const double s = std::sin(nominal.beam_angle), c = down * std::cos(nominal.beam_angle);
-	Eigen::Matrix<double, 3, 4> beams;
-	beams << s, 0, -s, 0, 0, s, 0, -s, c, c, c, c;
-	return beams;
-}
-
 CSimulatedDvl::CSimulatedDvl(
 	const std::string& label, const TDvlSpec& nominal, const TSimulatedDvlOptions& options,
 	const TCalibrationErrorOptions& errors, double floor_depth, uint64_t seed)
@@ -39,7 +30,7 @@ CSimulatedDvl::CSimulatedDvl(
 	  m_T_body_dvl(trueDvlPose(nominal, errors)),
 	  m_scale(1 + errors.dvl_scale),
 	  m_floor_depth(floor_depth),
-	  m_beams(dvlBeams(nominal)),
+	  m_beams(nominal.beams()),
 	  m_noise(seedOf(seed, label))
 {
 }

@@ -60,6 +60,9 @@ struct TAhrsSpec : TSensorMount
 	static constexpr const char* kind = "ahrs";
 	double sigma_roll_pitch{0.2 * M_PI / 180};	///< [rad]
 	double sigma_heading{0.5 * M_PI / 180};		///< [rad]
+	/** The part that wanders (soft iron, filter lag): first-order Gauss-Markov about the map axes. */
+	double sigma_tilt_bias{0}, sigma_heading_bias{0};  ///< [rad]
+	double bias_time{600};							   ///< Its correlation time [s]
 	TAhrsSpec() { rate = 20; }
 
 	template <class VISITOR>
@@ -68,22 +71,47 @@ struct TAhrsSpec : TSensorMount
 		TSensorMount::visit(v);
 		v.degrees("sigma_roll_pitch", sigma_roll_pitch, above(0), "White noise of roll and pitch [deg]");
 		v.degrees("sigma_heading", sigma_heading, above(0), "White noise of the heading [deg]");
+		v.degrees(
+			"sigma_tilt_bias", sigma_tilt_bias, atLeast(0),
+			"Wandering error of roll and of pitch (Gauss-Markov) [deg]");
+		v.degrees(
+			"sigma_heading_bias", sigma_heading_bias, atLeast(0),
+			"Wandering error of the heading (Gauss-Markov) [deg]");
+		v.number("bias_time", bias_time, above(0), "Correlation time of the wandering errors [s]");
 	}
 };
 
 struct TDvlSpec : TSensorMount
 {
 	static constexpr const char* kind = "dvl";
-	double sigma_velocity{0.0015};		 ///< Each axis, one ping [m/s] (COLA2's simulated sensor)
+	double sigma_velocity{0.0015};		 ///< Of x and y, one ping [m/s] (COLA2's simulated sensor)
 	double beam_angle{30 * M_PI / 180};	 ///< Off the instrument's z axis [rad]
+	double beam_azimuth{0};				 ///< Of the first beam, from the x axis towards the y axis [rad]
+	double sigma_scale{0.003};	///< Of measured / true velocity - 1, constant (600 kHz: 0.3 to 0.4 %)
 	TDvlSpec() { rate = 5; }
+
+	/** Unit vectors of the four beams (columns) in the instrument's frame, 90 deg of azimuth apart, off the
+	 * half of its z axis that looks down in this mounting. */
+	Eigen::Matrix<double, 3, 4> beams() const;
+	/** White noise of one beam such that four of them give `sigma_velocity` across the z axis [m/s]. */
+	double sigmaBeam() const { return M_SQRT2 * std::sin(beam_angle) * sigma_velocity; }
+	/** White noise of the z axis, of four beams [m/s]. */
+	double sigmaAlong() const { return sigmaBeam() / (2 * std::cos(beam_angle)); }
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
 	{
 		TSensorMount::visit(v);
-		v.number("sigma_velocity", sigma_velocity, above(0), "White noise of a velocity axis [m/s]");
+		v.number(
+			"sigma_velocity", sigma_velocity, above(0),
+			"White noise of the velocity's x and y, one ping; z and the beams follow by geometry [m/s]");
 		v.degrees("beam_angle", beam_angle, between(1, 60), "Beams off the instrument's z axis [deg]");
+		v.degrees(
+			"beam_azimuth", beam_azimuth, between(-180, 180),
+			"First beam from the x axis towards the y axis, the others 90 apart [deg]");
+		v.number(
+			"sigma_scale", sigma_scale, between(0, 0.2),
+			"Constant error of the scale: measured / true velocity - 1");
 	}
 };
 
@@ -93,6 +121,8 @@ struct TPressureSpec : TSensorMount
 	double sigma{100};				  ///< [Pa] (1 cm)
 	double surface_pressure{101325};  ///< [Pa]
 	double water_density{1030};		  ///< [kg/m^3] (COLA2)
+	double sigma_offset{0};			  ///< Error of surface_pressure at the start [Pa]
+	double offset_walk{0};			  ///< Its random walk: weather, tide, temperature [Pa/sqrt(s)]
 	TPressureSpec() { rate = 5; }
 
 	/** Depth of the sensor below the surface [m] from absolute pressure [Pa]. */
@@ -108,6 +138,10 @@ struct TPressureSpec : TSensorMount
 		v.number("sigma", sigma, above(0), "White noise [Pa]");
 		v.number("surface_pressure", surface_pressure, above(0), "Absolute pressure at the surface [Pa]");
 		v.number("water_density", water_density, between(900, 1100), "[kg/m^3]");
+		v.number("sigma_offset", sigma_offset, atLeast(0), "Error of surface_pressure at the start [Pa]");
+		v.number(
+			"offset_walk", offset_walk, atLeast(0),
+			"Its random walk: weather, tide, temperature [Pa/sqrt(s)]");
 	}
 };
 
@@ -115,6 +149,8 @@ struct TGpsSpec : TSensorMount
 {
 	static constexpr const char* kind = "gps";
 	double sigma_horizontal{0.5};  ///< [m]
+	double sigma_bias{0};		   ///< Part that wanders (atmosphere, orbits): Gauss-Markov [m]
+	double bias_time{300};		   ///< Its correlation time [s]
 	TGpsSpec() { rate = 1; }
 
 	template <class VISITOR>
@@ -122,6 +158,8 @@ struct TGpsSpec : TSensorMount
 	{
 		TSensorMount::visit(v);
 		v.number("sigma_horizontal", sigma_horizontal, above(0), "White noise, north and east [m]");
+		v.number("sigma_bias", sigma_bias, atLeast(0), "Wandering error, north and east (Gauss-Markov) [m]");
+		v.number("bias_time", bias_time, above(0), "Correlation time of the wandering error [s]");
 	}
 };
 

@@ -94,11 +94,6 @@ class CSimulatedAhrs
 	CNoise m_noise;
 };
 
-/** The four unit beam vectors (columns) in the instrument's frame: azimuths 0, 90, 180, 270 deg from its x
- * axis towards its y axis, `beam_angle` off the half of its z axis that looks down in the nominal mounting.
- */
-Eigen::Matrix<double, 3, 4> dvlBeams(const TDvlSpec& nominal);
-
 class CSimulatedDvl
 {
    public:
