@@ -65,15 +65,55 @@ bool TCsvRow::flag(size_t i) const
 }
 
 CCsvReader::CCsvReader(const std::string& path, std::vector<size_t> columns, bool more_columns, CBadRows& bad)
-	: m_path(path), m_columns(std::move(columns)), m_more_columns(more_columns), m_bad(bad)
+	: m_path(path), m_columns(std::move(columns)), m_more_columns(more_columns), m_seconds(false), m_bad(bad)
 {
-	requireFile(path, "each sensor's folder holds a data.csv");
-	m_file.open(path, std::ios::binary);
+	const std::string header = openWithHeader("each sensor's folder holds a data.csv");
+	if (header.empty() || header[0] != '#')
+		throw CError(where(1), "is not a header", "the first line starts with #, as '#timestamp [ns],...'");
+}
+
+CCsvReader::CCsvReader(const std::string& path, const std::vector<std::string>& header, CBadRows& bad)
+	: m_path(path), m_columns{header.size()}, m_more_columns(false), m_seconds(true), m_bad(bad)
+{
+	std::string all;
+	for (const auto& name : header)
+		all += (all.empty() ? "" : ",") + name;
+	const auto names = split(openWithHeader("it starts with the line '" + all + "'"));
+	const std::string way_out = "the first line must be '" + all + "'";
+	for (size_t i = 0; i < std::min(names.size(), header.size()); i++)
+		if (names[i] != header[i])
+			throw CError(
+				where(1), column(i) + " is '" + names[i] + "', '" + header[i] + "' was expected", way_out);
+	if (names.size() != header.size())
+		throw CError(
+			where(1),
+			"names " + std::to_string(names.size()) + " columns, " + std::to_string(header.size()) +
+				" were expected",
+			way_out);
+}
+
+std::string CCsvReader::openWithHeader(const std::string& way_out)
+{
+	requireFile(m_path, way_out);
+	m_file.open(m_path, std::ios::binary);
 	std::string header;
 	std::getline(m_file, header);
 	m_line = 1;
-	if (header.empty() || header[0] != '#')
-		throw CError(where(1), "is not a header", "the first line starts with #, as '#timestamp [ns],...'");
+	return header;
+}
+
+int64_t CCsvReader::stampOf(const std::string& field) const
+{
+	if (m_seconds) {
+		constexpr double kLatest = 4e9;	 // year 2096: integers of nanoseconds stay far from their end
+		const auto seconds = parsed<double>(field);
+		if (!seconds || !(*seconds >= 0 && *seconds < kLatest))
+			throw CRowProblem("time '" + field + "' is no number >= 0 [s]");
+		return std::llround(*seconds * 1e9);
+	}
+	const auto stamp = parsed<int64_t>(field);
+	if (!stamp || *stamp <= 0) throw CRowProblem("time stamp '" + field + "' is no integer > 0 [ns]");
+	return *stamp;
 }
 
 TCsvRow CCsvReader::parse(const std::string& text) const
@@ -88,12 +128,11 @@ TCsvRow CCsvReader::parse(const std::string& text) const
 		throw CRowProblem(
 			"has " + std::to_string(n) + " columns, " + std::to_string(m_columns[0]) + " were expected" +
 			(m_columns.size() > 1 ? " (or " + std::to_string(m_columns[1]) + ")" : ""));
-	const auto stamp = parsed<int64_t>(row.fields[0]);
-	if (!stamp || *stamp <= 0) throw CRowProblem("time stamp '" + row.fields[0] + "' is no integer > 0 [ns]");
-	if (*stamp < m_last)
+	row.stamp = stampOf(row.fields[0]);
+	if (row.stamp < m_last)
 		throw CRowProblem(
-			"time stamp " + row.fields[0] + " goes backwards: the row before has " + std::to_string(m_last));
-	row.stamp = *stamp;
+			"time stamp " + row.fields[0] + " goes backwards: the row before has " +
+			(m_seconds ? std::to_string(double(m_last) * 1e-9) : std::to_string(m_last)));
 	return row;
 }
 

@@ -28,6 +28,8 @@ std::string TDatasetReport::text() const
 	}
 	for (const auto& folder : absent)
 		out += "absent: " + folder + "\n";
+	for (const auto& note : notes)
+		out += "note: " + note + "\n";
 	for (const auto& warning : warnings)
 		out += "warning: " + warning + "\n";
 	if (bad_rows) out += mrpt::format("left out: %zu bad rows\n", bad_rows);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "import_dvl_gt.h"
+#include "import_output.h"
 #include "row_sources.h"
 #include "stereo_pairs.h"
 
@@ -30,33 +32,6 @@ std::string mav0Of(const std::string& input)
 			mav0, "holds no sensor's folder",
 			"cam0, cam1, imu0, ahrs0, dvl0, pressure0, gps0 or odom0 are read");
 	return mav0;
-}
-
-std::string groundTruthPathOf(const std::string& rawlog)
-{
-	return rawlog.substr(0, rawlog.rfind(".rawlog")) + ".gt.tum";
-}
-
-void checkOutput(const TDatasetOptions& options)
-{
-	const fs::path path(options.output);
-	if (path.extension() != ".rawlog" || path.stem().empty())
-		throw CError(options.output, "must end in .rawlog", "give -o NAME.rawlog");
-	if (options.overwrite) return;
-	for (const auto& file :
-		 {options.output, imagesFolderOf(options.output), sensorsPathOf(options.output),
-		  groundTruthPathOf(options.output)})
-		if (fs::exists(file))
-			throw CError(file, "exists already", "choose another name, or give --overwrite");
-}
-
-/** What an earlier import left (only with `overwrite`): its parts must not be taken for those of this one. */
-void removeEarlier(const std::string& rawlog)
-{
-	std::error_code ignored;
-	for (const auto& file :
-		 {rawlog, imagesFolderOf(rawlog), sensorsPathOf(rawlog), groundTruthPathOf(rawlog)})
-		fs::remove_all(file, ignored);
 }
 
 /** NAME_Images.part, which becomes NAME_Images in finish() and else disappears. */
@@ -167,25 +142,6 @@ std::optional<TSource> stereoSource(
 	return TSource{"STEREO", next};
 }
 
-/** k-way merge by stamp; of equal stamps the earlier source comes first. */
-void mergeInto(CRawlogWriter& writer, const std::vector<TSource>& sources, TDatasetReport& report)
-{
-	std::vector<std::optional<TStampedObservation>> heads;
-	for (const auto& source : sources)
-		heads.push_back(source.next());
-	for (;;) {
-		size_t first = heads.size();
-		for (size_t i = 0; i < heads.size(); i++)
-			if (heads[i] && (first == heads.size() || heads[i]->stamp < heads[first]->stamp)) first = i;
-		if (first == heads.size()) return;
-		writer.write(*heads[first]->observation);
-		report.last_stamp = double(heads[first]->stamp) * 1e-9;
-		if (writer.count() == 1) report.first_stamp = report.last_stamp;
-		report.observations[sources[first].label]++;
-		heads[first] = sources[first].next();
-	}
-}
-
 void finishReport(TImport& import, const std::vector<TSource>& sources)
 {
 	TDatasetReport& report = import.report;
@@ -202,11 +158,9 @@ void finishReport(TImport& import, const std::vector<TSource>& sources)
 	std::nth_element(sigmas.begin(), sigmas.begin() + sigmas.size() / 2, sigmas.end());
 	import.suite.gps["GPS"].sigma_horizontal = sigmas[sigmas.size() / 2];
 }
-}  // namespace
 
-TDatasetReport importDataset(const TDatasetOptions& options, const dataset_progress_t& progress)
+TDatasetReport importEuroc(const TDatasetOptions& options, const dataset_progress_t& progress)
 {
-	checkOutput(options);
 	TImport import(options, mav0Of(options.input));
 	readAxes(import);
 	CRawlogWriter writer(options.output);
@@ -228,5 +182,13 @@ TDatasetReport importDataset(const TDatasetOptions& options, const dataset_progr
 	writer.finish();
 	if (progress) progress("rawlog", 1);
 	return import.report;
+}
+}  // namespace
+
+TDatasetReport importDataset(const TDatasetOptions& options, const dataset_progress_t& progress)
+{
+	checkOutput(options);
+	return options.format == EDatasetFormat::DVL_GT_CSV ? importDvlGt(options, progress)
+														: importEuroc(options, progress);
 }
 }  // namespace posidonia

@@ -237,7 +237,8 @@ TSource odometrySource(TImport& import)
 	});
 }
 
-/** t x y z qx qy qz qw, with the row's own nanoseconds. */
+}  // namespace
+
 std::string tumLine(int64_t stamp, const Isometry3d& T)
 {
 	const Vector3d t = T.translation();
@@ -246,7 +247,6 @@ std::string tumLine(int64_t stamp, const Isometry3d& T)
 		"%lld.%09lld %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", static_cast<long long>(stamp / 1000000000),
 		static_cast<long long>(stamp % 1000000000), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
 }
-}  // namespace
 
 std::vector<TSource> openRowSources(TImport& import)
 {

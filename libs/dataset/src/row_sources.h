@@ -47,6 +47,9 @@ struct TImport
 /** Stamp of MRPT (100 ns ticks since 1601) of UTC nanoseconds. */
 mrpt::system::TTimeStamp mrptStamp(int64_t utc_ns);
 
+/** A line of a TUM file: t x y z qx qy qz qw, with the row's own nanoseconds. */
+std::string tumLine(int64_t stamp, const Eigen::Isometry3d& T);
+
 /** Streams of imu0, ahrs0, dvl0, pressure0, gps0 and odom0, as far as they exist; fills `suite` from their
  * yaml. */
 std::vector<TSource> openRowSources(TImport& import);

@@ -5,7 +5,8 @@
 
 namespace posidonia
 {
-/** auv-dataset2rawlog: an EuRoC (ASL) folder with an AUV's sensors as a rawlog. */
+/** auv-dataset2rawlog: an EuRoC (ASL) folder with an AUV's sensors, or a folder with DVL.csv and GT.csv, as a
+ * rawlog. */
 class CDatasetApp
 {
    public:
