@@ -1,6 +1,7 @@
 #include <posidonia/apps/CDatasetApp.h>
 
 #include "../dataset/sample_dataset.h"
+#include "../dataset/sample_dvl_gt.h"
 #include "apps_testing.h"
 
 namespace fs = std::filesystem;
@@ -84,4 +85,54 @@ TEST(DatasetApp, LevelAndCubicAreHandedOn)
 	const std::string in = set.folder() / "set", out = set.folder() / "c.rawlog";
 	runApp(app, {"-i", in, "-o", out, "--cubic"});
 	EXPECT_TRUE(app.params.cubic);
+}
+
+TEST(DatasetApp, TablesOfDvlAndTruthWithAttitudeErrors)
+{
+	const CSampleDvlGt log;
+	CDatasetApp app;
+	runApp(
+		app,
+		{"--format", "dvl-gt-csv", "-i", log.folder / "log", "-o", log.folder / "out/dive.rawlog",
+		 "--attitude-noise", "0.5", "--attitude-bias", "1", "--attitude-bias-time", "300", "--seed", "7"});
+	EXPECT_EQ(app.results().observations.at("DVL"), 60u);
+	EXPECT_EQ(app.results().datum_source, "first row");
+	EXPECT_NEAR(app.params.attitude_errors.noise, 0.5 * M_PI / 180, 1e-15);
+	EXPECT_NEAR(app.params.attitude_errors.bias, M_PI / 180, 1e-15);
+	EXPECT_EQ(app.params.attitude_errors.bias_time, 300);
+	EXPECT_EQ(app.params.attitude_errors.seed, 7u);
+	const TAhrsSpec ahrs = readSensors(log.folder / "out/dive.sensors.ini").ahrs.at("AHRS");
+	EXPECT_NEAR(ahrs.sigma_heading, 0.5 * M_PI / 180, 1e-12);
+	EXPECT_NEAR(ahrs.sigma_heading_bias, M_PI / 180, 1e-12);
+	EXPECT_EQ(ahrs.bias_time, 300);
+	EXPECT_EQ(readTum(log.folder / "out/dive.gt.tum").size(), 60u);
+}
+
+TEST(DatasetApp, FlagsOfTheOtherFormatAreRefused)
+{
+	const CSampleDvlGt log;
+	const struct
+	{
+		std::vector<std::string> flags;
+		const char* problem;
+	} cases[] = {
+		{{"--format", "csv"}, "csv"},
+		{{"--attitude-noise", "0.5"}, "--attitude-noise: has no effect without --format dvl-gt-csv"},
+		{{"--attitude-bias", "0.5"}, "--attitude-bias: has no effect without --format dvl-gt-csv"},
+		{{"--format", "dvl-gt-csv", "--level"}, "--level: has no effect with --format dvl-gt-csv"},
+		{{"--format", "dvl-gt-csv", "--cubic"}, "--cubic: has no effect with --format dvl-gt-csv"},
+		{{"--format", "dvl-gt-csv", "--attitude-noise", "-1"}, "--attitude-noise: must be >= 0"},
+		{{"--format", "dvl-gt-csv", "--attitude-bias", "nan"}, "--attitude-bias: must be >= 0"},
+		{{"--format", "dvl-gt-csv", "--attitude-bias", "1", "--attitude-bias-time", "0"},
+		 "--attitude-bias-time: must be > 0"},
+		{{"--format", "dvl-gt-csv", "--attitude-bias-time", "60"},
+		 "--attitude-bias-time: has no effect without --attitude-bias"},
+		{{"--format", "dvl-gt-csv", "--seed", "3"}, "--seed: has no effect without --attitude-noise or"}};
+	for (const auto& c : cases) {
+		CDatasetApp app;
+		std::vector<std::string> args{"-i", log.folder / "log", "-o", log.folder / "dive.rawlog"};
+		args.insert(args.end(), c.flags.begin(), c.flags.end());
+		EXPECT_HOLDS(errorOf<CUsageError>([&] { runApp(app, args); }), c.problem) << c.problem;
+		EXPECT_FALSE(fs::exists(log.folder / "dive.rawlog")) << c.problem;
+	}
 }

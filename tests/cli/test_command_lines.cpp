@@ -14,7 +14,9 @@ TEST(Cli, HelpNamesTheFlagsAndTheExitStatus)
 		 {"-r", "--rawlog", "-g", "--ground-truth", "--node-decider", "--edge-deciders", "--optimizer",
 		  "--list-deciders", "--assume-defaults"}},
 		{"auv-eval", {"-i", "--input", "-g", "--ground-truth", "--align", "--json", "--summary"}},
-		{"auv-dataset2rawlog", {"-i", "--input", "--skip-bad", "--level", "--cubic", "--overwrite"}}};
+		{"auv-dataset2rawlog",
+		 {"-i", "--input", "--format", "euroc|dvl-gt-csv", "--skip-bad", "--level", "--cubic", "--overwrite",
+		  "--attitude-noise", "--attitude-bias", "--attitude-bias-time", "--seed"}}};
 	for (const auto& app : allApps())
 		for (const char* flag : {"--help", "-h"}) {
 			const TOutcome o = runProgram(app, flag);
@@ -57,6 +59,8 @@ TEST(Cli, WrongCommandLinesEndWithTwo)
 	expectError("auv-eval", "-i " + survey().rawlog, 2, {"-g/--ground-truth: is missing"});
 	expectError("auv-dataset2rawlog", "-o x.rawlog", 2, {"-i/--input: is missing"});
 	expectError("auv-dataset2rawlog", "-i folder", 2, {"-o: is missing"});
+	expectError(
+		"auv-dataset2rawlog", "-i folder -o x.rawlog --format csv", 2, {"--format", "euroc|dvl-gt-csv"});
 	expectError("auv-ekf", "-r " + survey().rawlog + " --rate 0", 2, {"--rate: must be > 0"});
 	expectError("auv-ekf", "-r " + survey().rawlog + " --rate nan", 2, {"--rate"});
 	expectError("auv-graphslam", "-r", 2, {"-r"});

@@ -49,6 +49,9 @@ TEST(CliErrors, AMissingFileIsNamed)
 		"auv-dataset2rawlog", "-i " + folder.path() + " -o " + (folder / "x.log"), 1,
 		{"x.log: must end in .rawlog"});
 	expectError(
+		"auv-dataset2rawlog", "--format dvl-gt-csv -i " + folder.path() + " -o " + (folder / "x.rawlog"), 1,
+		{"DVL.csv: no such file"});
+	expectError(
 		"auv-eval", "-i " + (folder / "no") + " -g " + survey().prefix + ".gt.tum", 1,
 		{"no: no such file or folder"});
 }
