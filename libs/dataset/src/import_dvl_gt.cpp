@@ -64,7 +64,7 @@ TSensorSuite suiteOf(
 	return suite;
 }
 
-/** Observations that are there already, as a source. */
+/** The rows as a source of observations; it ends where `convert` gives none. */
 template <class ROW, class CONVERT>
 TSource sourceOf(const std::string& label, const std::vector<ROW>& rows, CONVERT convert)
 {
