@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservationGPS.h>
 #include <posidonia/nav/ekf_odometry.h>
+#include <posidonia/obs/frames.h>
 #include <posidonia/obs/observations.h>
 
 #include <functional>
@@ -25,19 +26,21 @@ struct TNavScene
 	TWorldOptions datum;
 	double duration{60};
 	unsigned seed{1};
-	double acceleration_density{0.03};	  ///< Random walk of the body velocity
+	/** Random walk of the body velocity, for mode = gyro: the accelerometers don't tell of it. */
+	double acceleration_density{0};
 	Eigen::Vector3d velocity{0.3, 0, 0};  ///< At the start
 	Eigen::Isometry3d start{Eigen::Isometry3d::Identity()};
-	Eigen::Vector3d gyro_bias{0, 0, 0};	 ///< At the start
-	double gps_until{0};				 ///< Fixes up to this time [s]
-	double noise{1};					 ///< Scale of every sensor's noise
+	Eigen::Vector3d gyro_bias{0, 0, 0}, accel_bias{0, 0, 0};  ///< At the start
+	double dvl_scale{0};									  ///< Measured / true - 1
+	double gps_until{0};									  ///< Fixes up to this time [s]
+	double noise{1};										  ///< Scale of every sensor's noise
 	/** Body rate at a time; default: a vehicle that sways and turns. */
 	std::function<Eigen::Vector3d(double)> rate = [](double t) {
 		return Eigen::Vector3d(0.05 * std::sin(1.3 * t), 0.04 * std::cos(0.9 * t), 0.15 * std::sin(0.2 * t));
 	};
 };
 
-/** Gyro 50 Hz, AHRS 20 Hz, DVL and pressure 5 Hz, GPS 1 Hz, stereo 2.5 Hz, all with the noise of sensors.ini.
+/** IMU 50 Hz, AHRS 20 Hz, DVL and pressure 5 Hz, GPS 1 Hz, stereo 2.5 Hz, all with the noise of sensors.ini.
  */
 class CNavSimulator
 {
@@ -49,6 +52,7 @@ class CNavSimulator
 		m_truth.T_map_body = scene.start;
 		m_truth.velocity = scene.velocity;
 		m_bias = scene.gyro_bias;
+		m_accel_bias = scene.accel_bias;
 	}
 
 	void run(const Sink& sink)
@@ -96,6 +100,7 @@ class CNavSimulator
 			m_truth.velocity += kick;
 		}
 		m_bias += gyro().gyro_random_walk * std::sqrt(kTick) * normal3();
+		m_accel_bias += gyro().accel_random_walk * std::sqrt(kTick) * normal3();
 	}
 	Eigen::Vector3d walk()
 	{
@@ -111,6 +116,16 @@ class CNavSimulator
 		return m_truth.T_map_body * spec.T_body_sensor().translation();
 	}
 
+	/** Specific force at `lever`, body axes, of a body velocity that is constant but for its walk. */
+	Eigen::Vector3d trueForce(const Eigen::Vector3d& lever) const
+	{
+		constexpr double h = 1e-4;
+		const Eigen::Vector3d w = m_truth.rate,
+							  alpha = (m_scene.rate(m_truth.t + h) - m_scene.rate(m_truth.t - h)) / (2 * h);
+		return w.cross(m_truth.velocity) - kGravity * m_truth.T_map_body.linear().row(2).transpose() +
+			   alpha.cross(lever) + w.cross(w.cross(lever));
+	}
+
 	mrpt::obs::CObservation::Ptr imu()
 	{
 		const auto& [label, spec] = *m_scene.sensors.imu.begin();
@@ -118,7 +133,8 @@ class CNavSimulator
 		const Eigen::Vector3d noise = spec.gyro_noise_density * std::sqrt(spec.rate) * normal3();
 		TImuReading reading;
 		reading.rate = T.linear().transpose() * (m_truth.rate + m_bias + noise);
-		reading.force = Eigen::Vector3d(0, 0, -9.80665);
+		const Eigen::Vector3d force_noise = spec.accel_noise_density * std::sqrt(spec.rate) * normal3();
+		reading.force = T.linear().transpose() * (trueForce(T.translation()) + m_accel_bias + force_noise);
 		return makeImu(label, stamp(), T, reading);
 	}
 	mrpt::obs::CObservation::Ptr ahrs()
@@ -133,9 +149,10 @@ class CNavSimulator
 	{
 		const auto& [label, spec] = *m_scene.sensors.dvl.begin();
 		const Eigen::Isometry3d T = spec.T_body_sensor();
-		const Eigen::Vector3d v =
-			T.linear().transpose() * (m_truth.velocity + m_truth.rate.cross(T.translation())) +
-			spec.sigma_velocity * normal3();
+		const Eigen::Vector3d v = (1 + m_scene.dvl_scale) * T.linear().transpose() *
+									  (m_truth.velocity + m_truth.rate.cross(T.translation())) +
+								  normal3().cwiseProduct(Eigen::Vector3d(
+									  spec.sigma_velocity, spec.sigma_velocity, spec.sigmaAlong()));
 		auto o = std::make_shared<CObservationDVL>();
 		o->sensorLabel = label;
 		o->timestamp = stampFrom(stamp());
@@ -181,7 +198,7 @@ class CNavSimulator
 	std::mt19937 m_rng;
 	std::normal_distribution<double> m_normal;
 	TNavTruth m_truth;
-	Eigen::Vector3d m_bias{0, 0, 0};
+	Eigen::Vector3d m_bias{0, 0, 0}, m_accel_bias{0, 0, 0};
 };
 
 /** Start options that say the scene's start with the given sigmas (the truth is drawn elsewhere). */

@@ -30,6 +30,8 @@ TRun randomRun(unsigned seed)
 {
 	TRun run;
 	run.scene.seed = seed;
+	run.scene.acceleration_density = 0.03;
+	run.options.mode = "gyro";
 	std::mt19937 rng(1000 + seed);
 	std::normal_distribution<double> n;
 	const auto normal3 = [&](double x, double y, double z) {
@@ -37,7 +39,7 @@ TRun randomRun(unsigned seed)
 		return Vector3d(a * x, b * y, c * z);
 	};
 	Isometry3d told = randomPose(rng, 5, 0);
-	told.translation().z() = 3.5;
+	told.translation().z() = 0.5;
 	told.linear() = rotationFromYawPitchRoll(0.7 * seed, 0.02, -0.03);
 	run.start = knownStart(told);
 	const double s = run.start.sigma_xy, rp = run.start.sigma_roll_pitch;
@@ -46,6 +48,7 @@ TRun randomRun(unsigned seed)
 	run.scene.start.linear() = expSO3(normal3(rp, rp, run.start.sigma_heading)) * told.linear();
 	run.options.sigma_initial_gyro_bias = 1e-3;
 	run.scene.gyro_bias = normal3(1e-3, 1e-3, 1e-3);
+	run.scene.dvl_scale = run.scene.sensors.dvl.at("DVL").sigma_scale * n(rng);
 	return run;
 }
 

@@ -64,6 +64,7 @@ TEST(GiveWay, AWrongKnownHeadingIsGivenUp)
 TEST(GiveWay, FixesThatAgreeMoveAPositionThatIsSureAndWrong)
 {
 	TNavScene scene;
+	scene.start.translation().z() = 0.3;
 	scene.gps_until = 60;
 	Isometry3d believed = scene.start;
 	believed.translation() += Vector3d(40, -30, 0);

@@ -25,7 +25,13 @@ struct TProbe : CNavigationEKF
 	using CNavigationEKF::OnTransitionNoise;
 };
 
-const TMotionNoise kNoise{0.03, 3e-4, 4e-5};
+const TMotionNoise kNoise{0.03, 0.05, 3e-4, 4e-5, 4e-3, 6e-3, 1e-3, {0.01, 100}, {0.02, 100}, {1, 60}};
+
+/** A vehicle that is pushed about a little. */
+TMotionInput someMotion(std::mt19937& rng, double dt)
+{
+	return {EDrive::INERTIAL, randomVector(rng, 0.5), Vector3d(0, 0, -9.8) + randomVector(rng, 0.5), dt};
+}
 
 MatrixMoving randomMovingCovariance(std::mt19937& rng)
 {
@@ -52,14 +58,14 @@ TProbe movedFilter(std::mt19937& rng)
 	TProbe ekf(kNoise, 0.999);
 	ekf.initialize(someState(rng), randomMovingCovariance(rng));
 	for (int i = 0; i < 20; i++)
-		ekf.predict({randomVector(rng, 0.5), 0.1});
+		ekf.predict(someMotion(rng, 0.1));
 	return ekf;
 }
 
 CDvlMeasurement dvlWith(const TNavigationState& x, const Vector3d& error, const Matrix3d& cov)
 {
-	const CDvlMeasurement model(Vector3d::Zero(), cov, Eigen::Isometry3d::Identity(), {});
-	return CDvlMeasurement(model.predicted(x) + error, cov, Eigen::Isometry3d::Identity(), {});
+	const CDvlMeasurement model = CDvlMeasurement::axes(Vector3d::Zero(), cov, {}, {});
+	return CDvlMeasurement::axes(model.predicted(x).head<3>() + error, cov, {}, {});
 }
 }  // namespace
 
@@ -67,14 +73,17 @@ TEST(NavigationEKF, TransitionVirtualsAgreeWithEachOther)
 {
 	std::mt19937 rng(1);
 	TProbe ekf = movedFilter(rng);
-	const TMotionInput input{randomVector(rng, 0.5), 0.1};
+	const TMotionInput input = someMotion(rng, 0.1);
 	ekf.predict(input);
 	TProbe::KFMatrix_VxV F;
 	ekf.OnTransitionJacobian(F);
 	TProbe::KFArray_ACT u;
-	for (int i = 0; i < 3; i++)
+	for (int i = 0; i < 3; i++) {
 		u[i] = input.rate[i];
-	u[3] = input.dt;
+		u[3 + i] = input.force[i];
+	}
+	u[6] = input.dt;
+	u[7] = static_cast<double>(input.drive);
 	const MatrixXd numeric = numericalDerivative(
 		[&](const VectorXd& d) -> VectorXd {
 			TProbe::KFArray_VEH x;
@@ -94,13 +103,15 @@ TEST(NavigationEKF, PredictionIsFPFtPlusQ)
 	TProbe ekf = movedFilter(rng);
 	const MatrixNav before = ekf.covariance();
 	const TNavigationState x = ekf.state();
-	const TMotionInput input{randomVector(rng, 0.5), 0.2};
+	const TMotionInput input = someMotion(rng, 0.2);
 	MatrixNav F = MatrixNav::Identity(), Q = MatrixNav::Zero();
-	F.topLeftCorner<kMovingSize, kMovingSize>() = transitionJacobian(x, input);
-	Q.topLeftCorner<kMovingSize, kMovingSize>() = transitionNoise(x, input, kNoise);
+	F.topLeftCorner<kDriven, kDriving>() = drivenJacobian(x, input);
+	F.diagonal().segment<5>(kAhrsBias) = gaussMarkovDecay(input.dt, kNoise);
+	Q.topLeftCorner<kDriven, kDriven>() = drivenNoise(x, input, drivenJacobian(x, input), kNoise);
+	Q.diagonal().segment<kMovingSize - kDriven>(kDriven) = walkingNoise(input.dt, kNoise);
 	ekf.predict(input);
 	EXPECT_LT((ekf.covariance() - (F * before * F.transpose() + Q)).cwiseAbs().maxCoeff(), 1e-12);
-	EXPECT_LT(localCoordinates(propagated(x, input), ekf.state()).norm(), 1e-12);
+	EXPECT_LT(localCoordinates(propagated(x, input, kNoise), ekf.state()).norm(), 1e-12);
 }
 
 TEST(NavigationEKF, UpdateEqualsTheInformationForm)
@@ -109,15 +120,15 @@ TEST(NavigationEKF, UpdateEqualsTheInformationForm)
 	TProbe ekf = movedFilter(rng);
 	// The clone began as an exact copy: give it a noise of its own, so that P can be inverted.
 	for (int i = 0; i < 10; i++)
-		ekf.predict({randomVector(rng, 0.5), 0.3});
+		ekf.predict(someMotion(rng, 0.3));
 	const MatrixNav P = ekf.covariance();
 	const TNavigationState x = ekf.state();
 	const Matrix3d R = 0.02 * Matrix3d::Identity();
 	const CDvlMeasurement z = dvlWith(x, Vector3d(0.05, -0.04, 0.03), R);
 	const CMeasurement::Jacobian H = z.jacobian(x);
-	const Matrix3d S = H * P * H.transpose() + R;
-	const Eigen::Matrix<double, kNavigationSize, 3> K = P * H.transpose() * S.inverse();
-	const VectorNav error = K * Vector3d(0.05, -0.04, 0.03);
+	const CMeasurement::Noise S = H * P * H.transpose() + z.noise();
+	const Eigen::Matrix<double, kNavigationSize, 4> K = P * H.transpose() * S.inverse();
+	const VectorNav error = K * Eigen::Vector4d(0.05, -0.04, 0.03, 0);
 	ASSERT_TRUE(ekf.update(z));
 	EXPECT_LT(localCoordinates(retract(x, error), ekf.state()).norm(), 1e-9);
 
@@ -134,7 +145,7 @@ TEST(NavigationEKF, CovarianceStaysSymmetricAndPositive)
 	std::mt19937 rng(4);
 	TProbe ekf = movedFilter(rng);
 	for (int i = 0; i < 5000; i++) {
-		ekf.predict({randomVector(rng, 0.5), 0.02});
+		ekf.predict(someMotion(rng, 0.02));
 		if (i % 10 == 0)
 			ekf.update(dvlWith(ekf.state(), randomVector(rng, 0.002), 2e-6 * Matrix3d::Identity()));
 		if (i % 7 == 0) ekf.update(CAttitudeMeasurement(ekf.state().R_odom_body, 1e-4, 1e-4));
@@ -197,27 +208,42 @@ TEST(NavigationEKF, RightAfterCloneTheDisplacementIsExactIdentity)
 	EXPECT_LT((ekf.sinceClone().T.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
 	EXPECT_LT(ekf.sinceClone().cov.norm(), 1e-14);
 	EXPECT_GT(ekf.pose().cov.norm(), 1e-4);
-	ekf.predict({Vector3d(0, 0, 0.1), 1});
+	ekf.predict(someMotion(rng, 1));
 	EXPECT_GT(ekf.sinceClone().cov.diagonal().minCoeff(), 1e-9);
 }
 
-TEST(NavigationEKF, AnchorTakesAttitudeAndBiasFromTheReferenceAndKeepsDepthAndVelocity)
+TEST(NavigationEKF, AnchorTakesTheReferenceButForTheHorizontalPosition)
 {
 	std::mt19937 rng(8);
 	TProbe edge = movedFilter(rng), nav = movedFilter(rng);
-	const MatrixNav own = edge.covariance(), other = nav.covariance();
-	const TNavigationState x = edge.state();
+	const MatrixNav other = nav.covariance();
 	edge.anchor(nav);
 	const MatrixNav P = edge.covariance();
-	EXPECT_EQ(edge.state().position, Vector3d(0, 0, x.position.z()));
-	EXPECT_EQ(edge.state().velocity, x.velocity);
+	constexpr int kKept = kMovingSize - 2;
+	EXPECT_EQ(edge.state().position, Vector3d(0, 0, nav.state().position.z()));
+	EXPECT_EQ(edge.state().velocity, nav.state().velocity);
 	EXPECT_EQ(edge.state().R_odom_body, nav.state().R_odom_body);
 	EXPECT_EQ(edge.state().gyro_bias, nav.state().gyro_bias);
 	EXPECT_EQ((P.block<2, kNavigationSize>(kPosition, 0).norm()), 0);
-	EXPECT_EQ((P.block<3, 3>(kVelocity, kVelocity) - own.block<3, 3>(kVelocity, kVelocity)).norm(), 0);
-	EXPECT_EQ(P(2, 2), own(2, 2));
-	EXPECT_EQ((P.block<3, 3>(kAttitude, kGyroBias) - other.block<3, 3>(kAttitude, kGyroBias)).norm(), 0);
+	EXPECT_EQ((P.block<kKept, kKept>(2, 2) - other.block<kKept, kKept>(2, 2)).norm(), 0);
 	EXPECT_LT(edge.sinceClone().cov.norm(), 1e-14);
+}
+
+TEST(NavigationEKF, ARestoredFilterGoesOnAsTheSavedOne)
+{
+	std::mt19937 rng(11);
+	TProbe ekf = movedFilter(rng), other = movedFilter(rng);
+	TFilterState saved;
+	ekf.save(saved);
+	other.restore(saved);
+	const TMotionInput input = someMotion(rng, 0.1);
+	const CDvlMeasurement z = dvlWith(ekf.state(), {0.01, 0, 0}, 0.01 * Matrix3d::Identity());
+	for (TProbe* filter : {&ekf, &other}) {
+		filter->predict(input);
+		filter->update(z);
+	}
+	EXPECT_EQ((ekf.covariance() - other.covariance()).norm(), 0);
+	EXPECT_EQ(localCoordinates(ekf.state(), other.state()).norm(), 0);
 }
 
 TEST(NavigationEKF, NoAttitudeIsSingular)
@@ -225,7 +251,9 @@ TEST(NavigationEKF, NoAttitudeIsSingular)
 	TProbe ekf(kNoise, 0.999);
 	TNavigationState x;
 	x.R_odom_body = rotationFromYawPitchRoll(0.4, M_PI / 2, 0);
-	ekf.initialize(x, 0.01 * MatrixMoving::Identity());
+	MatrixMoving cov = 0.01 * MatrixMoving::Identity();
+	cov.block<3, 3>(kAhrsBias, kAhrsBias).setZero();
+	ekf.initialize(x, cov);
 	const Matrix3d R_measured = x.R_odom_body * expSO3({0.05, -0.03, 0.04});
 	ASSERT_TRUE(ekf.update(CAttitudeMeasurement(R_measured, 1e-4, 1e-4)));
 	EXPECT_LT(logSO3(R_measured.transpose() * ekf.state().R_odom_body).norm(), 1e-4);
@@ -236,11 +264,11 @@ TEST(NavigationEKF, IterationsDoNotAllocate)
 	std::mt19937 rng(9);
 	TProbe ekf = movedFilter(rng);
 	const CDvlMeasurement z = dvlWith(ekf.state(), {0.01, 0, 0}, 0.01 * Matrix3d::Identity());
-	ekf.predict({Vector3d(0, 0, 0.1), 0.01});
+	ekf.predict(someMotion(rng, 0.01));
 	ekf.update(z);	// the base's vectors get their size
 	const size_t before = allocations();
 	for (int i = 0; i < 100; i++) {
-		ekf.predict({Vector3d(0, 0, 0.1), 0.001});
+		ekf.predict(someMotion(rng, 0.001));
 		ekf.update(z);
 	}
 	EXPECT_EQ(allocations() - before, 0u);

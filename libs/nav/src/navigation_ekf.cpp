@@ -1,3 +1,4 @@
+#include <posidonia/nav/chi_square.h>
 #include <posidonia/nav/navigation_ekf.h>
 
 namespace posidonia
@@ -7,35 +8,17 @@ using Eigen::Vector3d;
 
 namespace
 {
-/** Chi-square distribution function for 1, 2 or 3 degrees of freedom, closed forms. */
-double chiSquareCdf(double x, unsigned dof)
-{
-	const double one = std::erf(std::sqrt(x / 2));
-	if (dof == 1) return one;
-	if (dof == 2) return 1 - std::exp(-x / 2);
-	return one - std::sqrt(2 * x / M_PI) * std::exp(-x / 2);
-}
-
-/** Its quantile, by bisection: mrpt::math::chi2inv approximates, 2 to 3 % too high at 99.9 %. */
-double chiSquareQuantile(double p, unsigned dof)
-{
-	double low = 0, high = 100;
-	for (int i = 0; i < 60; i++)
-		(chiSquareCdf((low + high) / 2, dof) < p ? low : high) = (low + high) / 2;
-	return (low + high) / 2;
-}
-
 TMotionInput inputOf(const CNavigationEKF::KFArray_ACT& u)
 {
-	return {{u[0], u[1], u[2]}, u[3]};
+	return {static_cast<EDrive>(static_cast<int>(u[7])), {u[0], u[1], u[2]}, {u[3], u[4], u[5]}, u[6]};
 }
 }  // namespace
 
 CNavigationEKF::CNavigationEKF(const TMotionNoise& noise, double gate_probability) : m_noise(noise)
 {
-	for (unsigned dof = 1; dof <= CMeasurement::kSize; dof++)
-		m_gate[dof] = chiSquareQuantile(gate_probability, dof);
 	m_gate[0] = 0;
+	for (int dof = 1; dof <= CMeasurement::kSize; dof++)
+		m_gate[dof] = chiSquareQuantile(gate_probability, dof);
 	initialize({}, MatrixMoving::Identity());
 }
 
@@ -48,12 +31,37 @@ void CNavigationEKF::initialize(const TNavigationState& x, const MatrixMoving& c
 	clone();
 }
 
+void CNavigationEKF::save(TFilterState& to) const
+{
+	to.x = m_nominal;
+	to.P = covariance();
+}
+
+void CNavigationEKF::restore(const TFilterState& from)
+{
+	m_nominal = m_nominal_next = from.x;
+	m_xkk.fill(0);
+	P() = from.P;
+}
+
 void CNavigationEKF::predict(const TMotionInput& u)
 {
 	m_input = u;
-	m_nominal_next = propagated(m_nominal, u);
+	m_nominal_next = propagated(m_nominal, u, m_noise);
 	m_measurement = nullptr;
+	m_observer ? predictObserved() : runOneKalmanIteration();
+}
+
+void CNavigationEKF::predictObserved()
+{
+	const TNavigationState before = m_nominal;
+	const MatrixMoving P_before = P().topLeftCorner<kMovingSize, kMovingSize>();
+	KFMatrix_VxV F;
+	OnTransitionJacobian(F);
 	runOneKalmanIteration();
+	m_observer->predicted(
+		before, P_before, F.asEigen().topLeftCorner<kMovingSize, kMovingSize>(), m_nominal,
+		P().topLeftCorner<kMovingSize, kMovingSize>());
 }
 
 bool CNavigationEKF::update(const CMeasurement& measurement)
@@ -69,9 +77,15 @@ void CNavigationEKF::updateUngated(const CMeasurement& measurement)
 
 void CNavigationEKF::giveWay(const CMeasurement& measurement)
 {
+	const MatrixMoving before = P().topLeftCorner<kMovingSize, kMovingSize>();
 	const int row = measurement.block();
-	const Matrix3d seen = measurement.jacobian(m_nominal).middleCols<3>(row);
+	const Eigen::Matrix<double, CMeasurement::kSize, 3> seen =
+		measurement.jacobian(m_nominal).middleCols<3>(row);
 	P().block<3, 3>(row, row) += innovation(measurement).squaredNorm() * seen.transpose() * seen;
+	if (m_observer)
+		m_observer->predicted(
+			m_nominal, before, MatrixMoving::Identity(), m_nominal,
+			P().topLeftCorner<kMovingSize, kMovingSize>());
 	updateUngated(measurement);
 }
 
@@ -97,18 +111,12 @@ void CNavigationEKF::clone()
 
 void CNavigationEKF::anchor(const CNavigationEKF& reference)
 {
-	const MatrixNav own = covariance(), other = reference.covariance();
-	auto cov = P();
-	cov.setZero();
-	for (int r : {kPosition + 2, kVelocity + 0, kVelocity + 1, kVelocity + 2})
-		for (int c : {kPosition + 2, kVelocity + 0, kVelocity + 1, kVelocity + 2})
-			cov(r, c) = own(r, c);
-	for (int r : {kAttitude, kGyroBias})
-		for (int c : {kAttitude, kGyroBias})
-			cov.block<3, 3>(r, c) = other.block<3, 3>(r, c);
+	m_nominal = reference.m_nominal;
 	m_nominal.position.head<2>().setZero();
-	m_nominal.R_odom_body = reference.m_nominal.R_odom_body;
-	m_nominal.gyro_bias = reference.m_nominal.gyro_bias;
+	auto cov = P();
+	cov = reference.covariance();
+	cov.topRows<2>().setZero();
+	cov.leftCols<2>().setZero();
 	clone();
 }
 
@@ -121,7 +129,7 @@ MatrixNav CNavigationEKF::covariance() const
 TPoseEstimate CNavigationEKF::pose() const
 {
 	TPoseEstimate estimate;
-	estimate.T = m_nominal.T_odom_body();
+	estimate.T = m_nominal.T_odom_nav();
 	Matrix6d J = Matrix6d::Identity();	// odom axes to the pose's own
 	J.topLeftCorner<3, 3>() = m_nominal.R_odom_body.transpose();
 	estimate.cov = J * covariance().topLeftCorner<6, 6>() * J.transpose();
@@ -140,29 +148,36 @@ TPoseEstimate CNavigationEKF::sinceClone() const
 
 void CNavigationEKF::OnGetAction(KFArray_ACT& u) const
 {
-	for (int i = 0; i < 3; i++)
+	for (int i = 0; i < 3; i++) {
 		u[i] = m_input.rate[i];
-	u[3] = m_input.dt;
+		u[3 + i] = m_input.force[i];
+	}
+	u[6] = m_input.dt;
+	u[7] = static_cast<double>(m_input.drive);
 }
 
 void CNavigationEKF::OnTransitionModel(const KFArray_ACT& u, KFArray_VEH& x, bool& skip) const
 {
 	const TMotionInput input = inputOf(u);
-	const TNavigationState moved = propagated(retract(m_nominal, x.asEigen()), input);
-	x.asEigen() = localCoordinates(propagated(m_nominal, input), moved);
 	skip = input.dt == 0;
+	if (skip || x.asEigen().isZero(0)) return;	// no error stays none
+	const TNavigationState moved = propagated(retract(m_nominal, x.asEigen()), input, m_noise);
+	x.asEigen() = localCoordinates(propagated(m_nominal, input, m_noise), moved);
 }
 
 void CNavigationEKF::OnTransitionJacobian(KFMatrix_VxV& F) const
 {
 	F.asEigen().setIdentity();
-	F.asEigen().topLeftCorner<kMovingSize, kMovingSize>() = transitionJacobian(m_nominal, m_input);
+	F.asEigen().topLeftCorner<kDriven, kDriving>() = drivenJacobian(m_nominal, m_input);
+	F.asEigen().diagonal().segment<5>(kAhrsBias) = gaussMarkovDecay(m_input.dt, m_noise);
 }
 
 void CNavigationEKF::OnTransitionNoise(KFMatrix_VxV& Q) const
 {
 	Q.asEigen().setZero();
-	Q.asEigen().topLeftCorner<kMovingSize, kMovingSize>() = transitionNoise(m_nominal, m_input, m_noise);
+	Q.asEigen().topLeftCorner<kDriven, kDriven>() =
+		drivenNoise(m_nominal, m_input, drivenJacobian(m_nominal, m_input), m_noise);
+	Q.asEigen().diagonal().segment<kMovingSize - kDriven>(kDriven) = walkingNoise(m_input.dt, m_noise);
 }
 
 void CNavigationEKF::OnGetObservationNoise(KFMatrix_OxO& R) const
@@ -175,9 +190,10 @@ void CNavigationEKF::OnGetObservationsAndDataAssociation(
 	const KFMatrix& S, const std::vector<size_t>&, const KFMatrix_OxO&)
 {
 	association.clear();
-	const Vector3d innovation = m_measurement->value() - Vector3d(predictions[0].asEigen());
-	const Matrix3d S3 = S.asEigen().topLeftCorner<3, 3>();
-	m_last_distance = innovation.dot(S3.llt().solve(innovation));
+	const CMeasurement::Value innovation =
+		m_measurement->value() - CMeasurement::Value(predictions[0].asEigen());
+	const CMeasurement::Noise S4 = S.asEigen().topLeftCorner<CMeasurement::kSize, CMeasurement::kSize>();
+	m_last_distance = innovation.dot(S4.llt().solve(innovation));
 	m_accepted = !m_gated || m_last_distance < m_gate[m_measurement->degreesOfFreedom()];
 	z.clear();
 	if (!m_accepted) return;
@@ -203,7 +219,7 @@ void CNavigationEKF::OnObservationJacobians(size_t, KFMatrix_OxV& Hx, KFMatrix_O
 void CNavigationEKF::OnNormalizeStateVector()
 {
 	const VectorNav error = Eigen::Map<const VectorNav>(&m_xkk[0]);
-	m_nominal = retract(m_nominal_next, error);
+	m_nominal = error.isZero(0) ? m_nominal_next : retract(m_nominal_next, error);
 	m_nominal_next = m_nominal;
 	m_xkk.fill(0);
 	if (!m_measurement) return;
@@ -217,7 +233,10 @@ void CNavigationEKF::resetCovariance(const Vector3d& attitude_error, int rows)
 {
 	const Matrix3d G = rightJacobianSO3(attitude_error);
 	auto cov = P();
-	cov.middleRows<3>(rows) = (G * cov.middleRows<3>(rows)).eval();
-	cov.middleCols<3>(rows) = (cov.middleCols<3>(rows) * G.transpose()).eval();
+	Eigen::Matrix<double, 3, kNavigationSize> turned = G * cov.middleRows<3>(rows);
+	const Matrix3d own = turned.middleCols<3>(rows) * G.transpose();
+	turned.middleCols<3>(rows) = 0.5 * (own + own.transpose());
+	cov.middleRows<3>(rows) = turned;
+	cov.middleCols<3>(rows) = turned.transpose();
 }
 }  // namespace posidonia

@@ -17,7 +17,7 @@ Isometry3d isometry(const Matrix3d& R, const Vector3d& t)
 }
 }  // namespace
 
-Isometry3d TNavigationState::T_odom_body() const
+Isometry3d TNavigationState::T_odom_nav() const
 {
 	return isometry(R_odom_body, position);
 }
@@ -33,6 +33,11 @@ TNavigationState retract(const TNavigationState& x, const VectorNav& e)
 	y.R_odom_body = x.R_odom_body * expSO3(e.segment<3>(kAttitude));
 	y.velocity = x.velocity + e.segment<3>(kVelocity);
 	y.gyro_bias = x.gyro_bias + e.segment<3>(kGyroBias);
+	y.accel_bias = x.accel_bias + e.segment<3>(kAccelBias);
+	y.dvl_scale = x.dvl_scale + e[kDvlScale];
+	y.pressure_offset = x.pressure_offset + e[kPressureOffset];
+	y.ahrs_bias = x.ahrs_bias + e.segment<3>(kAhrsBias);
+	y.gps_bias = x.gps_bias + e.segment<2>(kGpsBias);
 	y.clone_position = x.clone_position + e.segment<3>(kClonePosition);
 	y.R_odom_clone = x.R_odom_clone * expSO3(e.segment<3>(kCloneAttitude));
 	return y;
@@ -42,47 +47,10 @@ VectorNav localCoordinates(const TNavigationState& x, const TNavigationState& y)
 {
 	VectorNav e;
 	e << y.position - x.position, logSO3(x.R_odom_body.transpose() * y.R_odom_body), y.velocity - x.velocity,
-		y.gyro_bias - x.gyro_bias, y.clone_position - x.clone_position,
-		logSO3(x.R_odom_clone.transpose() * y.R_odom_clone);
+		y.gyro_bias - x.gyro_bias, y.accel_bias - x.accel_bias, y.dvl_scale - x.dvl_scale,
+		y.pressure_offset - x.pressure_offset, y.ahrs_bias - x.ahrs_bias, y.gps_bias - x.gps_bias,
+		y.clone_position - x.clone_position, logSO3(x.R_odom_clone.transpose() * y.R_odom_clone);
 	return e;
-}
-
-TNavigationState propagated(const TNavigationState& x, const TMotionInput& u)
-{
-	const Vector3d half_turn = (u.rate - x.gyro_bias) * (u.dt / 2);
-	const Matrix3d R_half = expSO3(half_turn);	// the velocity turns with the body: use the attitude half way
-	TNavigationState y = x;
-	y.position += x.R_odom_body * (R_half * x.velocity) * u.dt;
-	y.R_odom_body = x.R_odom_body * R_half * R_half;
-	return y;
-}
-
-MatrixMoving transitionJacobian(const TNavigationState& x, const TMotionInput& u)
-{
-	const Vector3d half_turn = (u.rate - x.gyro_bias) * (u.dt / 2);
-	const Matrix3d R_half = expSO3(half_turn), R_mid = x.R_odom_body * R_half;
-	MatrixMoving F = MatrixMoving::Identity();
-	F.block<3, 3>(kPosition, kAttitude) = x.R_odom_body * skew(R_half * x.velocity) * -u.dt;
-	F.block<3, 3>(kPosition, kVelocity) = R_mid * u.dt;
-	F.block<3, 3>(kPosition, kGyroBias) =
-		R_mid * skew(x.velocity) * rightJacobianSO3(half_turn) * (u.dt * u.dt / 2);
-	F.block<3, 3>(kAttitude, kAttitude) = (R_half * R_half).transpose();
-	F.block<3, 3>(kAttitude, kGyroBias) = rightJacobianSO3(2 * half_turn) * -u.dt;
-	return F;
-}
-
-MatrixMoving transitionNoise(const TNavigationState& x, const TMotionInput& u, const TMotionNoise& noise)
-{
-	const double dt = u.dt, q = noise.acceleration * noise.acceleration;
-	const Matrix3d I = Matrix3d::Identity();
-	MatrixMoving Q = MatrixMoving::Zero();
-	Q.block<3, 3>(kPosition, kPosition) = q * dt * dt * dt / 3 * I;
-	Q.block<3, 3>(kPosition, kVelocity) = q * dt * dt / 2 * x.R_odom_body;
-	Q.block<3, 3>(kVelocity, kPosition) = Q.block<3, 3>(kPosition, kVelocity).transpose();
-	Q.block<3, 3>(kVelocity, kVelocity) = q * dt * I;
-	Q.block<3, 3>(kAttitude, kAttitude) = noise.gyro * noise.gyro * dt * I;
-	Q.block<3, 3>(kGyroBias, kGyroBias) = noise.gyro_walk * noise.gyro_walk * dt * I;
-	return Q;
 }
 
 Isometry3d displacement(const TNavigationState& x)

@@ -6,7 +6,10 @@ namespace posidonia
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-CPoseInitializer::CPoseInitializer(const TInitialPoseOptions& options) : m_options(options) {}
+CPoseInitializer::CPoseInitializer(const TInitialPoseOptions& options, const Vector3d& origin)
+	: m_options(options), m_origin(origin)
+{
+}
 
 void CPoseInitializer::addAttitude(const TAttitudeMeasurement& attitude)
 {
@@ -16,7 +19,7 @@ void CPoseInitializer::addAttitude(const TAttitudeMeasurement& attitude)
 void CPoseInitializer::addDepth(double depth, double sigma, const Vector3d& lever)
 {
 	m_depth = TScalarMeasurement{depth, sigma};
-	m_depth_lever = lever;
+	m_depth_lever = lever - m_origin;
 }
 
 void CPoseInitializer::addFix(double stamp, const Vector2d& north_east, double sigma, const Vector3d& lever)
@@ -26,7 +29,7 @@ void CPoseInitializer::addFix(double stamp, const Vector2d& north_east, double s
 		m_fixes = 0;
 		m_sum = m_sum_squares = Vector2d::Zero();
 	}
-	const Vector2d body = north_east - (m_attitude->R_map_body * lever).head<2>();
+	const Vector2d body = north_east - (m_attitude->R_map_body * (lever - m_origin)).head<2>();
 	m_fixes++;
 	m_last_fix = stamp;
 	m_fix_sigma = sigma;

@@ -4,6 +4,7 @@
 #include <posidonia/geometry/se3.h>
 
 #include <optional>
+#include <vector>
 
 namespace posidonia
 {
@@ -53,6 +54,13 @@ struct TUnaryMeasurements
 	std::optional<THorizontalMeasurement> position;	 ///< From GPS
 };
 
+/** An edge that late observations changed after it was handed out. */
+struct TRevisedEdge
+{
+	size_t clone{0};  ///< It ended at this call of clone(), counted from 0
+	TPoseEstimate edge;
+};
+
 /** Where the engine's odometry comes from. Fed with EVERY observation in order of arrival (stereo pairs too:
  * they only move the present to their stamp). Deterministic: the same observations give the same bytes. */
 class COdometrySource
@@ -76,5 +84,7 @@ class COdometrySource
 	virtual TPoseEstimate now() const = 0;
 	virtual TDeclaredDrift declaredDrift() const { return {}; }
 	virtual TUnaryMeasurements unary() const { return {}; }
+	/** Edges, handed out before, that late observations have changed since the last call. */
+	virtual std::vector<TRevisedEdge> takeRevisedEdges() { return {}; }
 };
 }  // namespace posidonia

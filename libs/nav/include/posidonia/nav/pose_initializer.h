@@ -6,11 +6,13 @@
 namespace posidonia
 {
 /** Where the vehicle starts: the known pose at once, or from the mean of the first GPS fixes, the AHRS and
- * the pressure. Positions of sensors are those of their lever arms on the body [m]. */
+ * the pressure. */
 class CPoseInitializer
 {
    public:
-	explicit CPoseInitializer(const TInitialPoseOptions& options);
+	/** Levers of add...() run from a point on the body, `origin` from the same to the body's origin [m]. */
+	explicit CPoseInitializer(
+		const TInitialPoseOptions& options, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 	void addAttitude(const TAttitudeMeasurement& attitude);
 	void addDepth(double depth, double sigma, const Eigen::Vector3d& lever);
@@ -27,6 +29,7 @@ class CPoseInitializer
 	TPoseEstimate measuredPose() const;
 
 	TInitialPoseOptions m_options;
+	Eigen::Vector3d m_origin;
 	std::optional<TAttitudeMeasurement> m_attitude;
 	std::optional<TScalarMeasurement> m_depth;
 	Eigen::Vector3d m_depth_lever{0, 0, 0};

@@ -63,6 +63,8 @@ struct TAhrsSpec : TSensorMount
 	/** The part that wanders (soft iron, filter lag): first-order Gauss-Markov about the map axes. */
 	double sigma_tilt_bias{0}, sigma_heading_bias{0};  ///< [rad]
 	double bias_time{600};							   ///< Its correlation time [s]
+	/** True heading = heading read + declination (east is positive); 0 where the instrument applies it. */
+	double declination{0};	///< [rad]
 	TAhrsSpec() { rate = 20; }
 
 	template <class VISITOR>
@@ -78,6 +80,9 @@ struct TAhrsSpec : TSensorMount
 			"sigma_heading_bias", sigma_heading_bias, atLeast(0),
 			"Wandering error of the heading (Gauss-Markov) [deg]");
 		v.number("bias_time", bias_time, above(0), "Correlation time of the wandering errors [s]");
+		v.degrees(
+			"declination", declination, between(-180, 180),
+			"Magnetic declination, east positive: true heading = heading read + this [deg]");
 	}
 };
 
