@@ -78,11 +78,10 @@ TEST(AllanDeviation, OfAnImuAtRestIsThatOfItsSpec)
 	const static_log_t log = staticLog(spec);
 	const auto law = [](double n, double k, double tau) { return std::sqrt(n * n / tau + k * k * tau / 3); };
 	for (const double tau : {0.25, 1.0, 5.0, 25.0, 100.0, 300.0}) {
-		expectDeviation(
-			log, 0, tau, law(spec.gyro_noise_density, spec.gyro_random_walk, tau),
-			"gyro " + std::to_string(tau));
-		expectDeviation(
-			log, 3, tau, law(spec.accel_noise_density, spec.accel_random_walk, tau), "accelerometer");
+		const double gyro = law(spec.gyro_noise_density, spec.gyro_random_walk, tau);
+		const double accel = law(spec.accel_noise_density, spec.accel_random_walk, tau);
+		expectDeviation(log, 0, tau, gyro, "gyro");
+		expectDeviation(log, 3, tau, accel, "accelerometer");
 	}
 	EXPECT_NEAR(allanDeviation(log, 0, 1) / spec.gyro_noise_density, 1, 0.03) << "N at 1 s";
 	EXPECT_NEAR(allanDeviation(log, 3, 1) / spec.accel_noise_density, 1, 0.03) << "N at 1 s";
