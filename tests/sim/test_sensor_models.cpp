@@ -1,90 +1,14 @@
 #include <gtest/gtest.h>
-#include <mrpt/obs/CObservationIMU.h>
 #include <posidonia/geometry/mrpt_pose.h>
 #include <posidonia/obs/frames.h>
 #include <posidonia/sim/sensor_bank.h>
 
+#include "sensor_test_tools.h"
+
 using namespace posidonia;
+using namespace posidonia::testing;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-namespace
-{
-constexpr double kFloor = 6;
-constexpr double kTiny = 1e-12;
-
-const CObservationDVL& asDvl(const mrpt::obs::CObservation::Ptr& o)
-{
-	return dynamic_cast<CObservationDVL&>(*o);
-}
-TImuReading readingOf(const mrpt::obs::CObservation::Ptr& o)
-{
-	return imuReadingOf(dynamic_cast<mrpt::obs::CObservationIMU&>(*o)).value();
-}
-Vector3d velocityOf(const CObservationDVL& dvl)
-{
-	return {dvl.velocity.x, dvl.velocity.y, dvl.velocity.z};
-}
-
-TMotionOptions lively()
-{
-	TMotionOptions o;
-	o.roll = 0.2, o.pitch = 0.15, o.yaw = 0.1, o.heave = 0.2, o.sway = 0.1;
-	return o;
-}
-const CVehicleMotion& livelyMotion()
-{
-	static const CVehicleMotion motion(TRouteOptions(), lively(), 5);
-	return motion;
-}
-
-TImuSpec quietImu()
-{
-	TImuSpec s = TSensorSuite::sparus2().imu.at("IMU");
-	s.gyro_noise_density = s.gyro_random_walk = s.accel_noise_density = s.accel_random_walk = 0;
-	return s;
-}
-TDvlSpec quietDvl()
-{
-	TDvlSpec s = TSensorSuite::sparus2().dvl.at("DVL");
-	s.sigma_velocity = 0;
-	return s;
-}
-TSimulatedDvlOptions quietRanges()
-{
-	TSimulatedDvlOptions o;
-	o.sigma_altitude = 0;
-	return o;
-}
-CSimulatedDvl makeQuietDvl(const TCalibrationErrorOptions& errors = {})
-{
-	return {"DVL", quietDvl(), quietRanges(), errors, kFloor, 1};
-}
-
-/** Mean and standard deviation. */
-struct TMoments
-{
-	double mean{0}, sigma{0};
-};
-TMoments momentsOf(const std::vector<double>& x)
-{
-	TMoments m;
-	for (double v : x)
-		m.mean += v / static_cast<double>(x.size());
-	for (double v : x)
-		m.sigma += (v - m.mean) * (v - m.mean) / static_cast<double>(x.size() - 1);
-	m.sigma = std::sqrt(m.sigma);
-	return m;
-}
-/** Within 4.5 standard errors of zero mean and of `sigma`? */
-void expectWhite(const std::vector<double>& x, double sigma, const std::string& what)
-{
-	const double n = static_cast<double>(x.size());
-	const TMoments m = momentsOf(x);
-	EXPECT_LT(std::abs(m.mean), 4.5 * sigma / std::sqrt(n)) << what;
-	EXPECT_NEAR(m.sigma, sigma, 4.5 * sigma / std::sqrt(2 * n)) << what;
-}
-}  // namespace
 
 TEST(SimulatedImu, AtRestReadsMinusGravity)
 {
@@ -165,86 +89,12 @@ TEST(SimulatedAhrs, HeadingHasItsBiasAndNoise)
 	expectWhite(pitch, spec.sigma_roll_pitch, "pitch");
 }
 
-TEST(SimulatedDvl, OnASpotTurnReadsItsLeverArm)
-{
-	TVehicleState state;
-	state.T_map_body.translation().z() = 3.5;
-	state.omega_body = {0, 0, 0.3};
-	auto sensor = makeQuietDvl();
-	const auto o = sensor.measure(state, 1);
-	// 0.4145 m aft of the turning point: 0.3 rad/s to starboard moves it to port, 0.124 m/s
-	const Vector3d in_body = quietDvl().T_body_sensor().linear() * velocityOf(asDvl(o));
-	EXPECT_LT((in_body - Vector3d(0, -0.3 * 0.4145, 0)).norm(), kTiny);
-}
-
-TEST(SimulatedDvl, VelocityIsThatOfTheInstrumentInItsOwnAxes)
-{
-	auto sensor = makeQuietDvl();
-	const Isometry3d T_body_dvl = quietDvl().T_body_sensor();
-	const auto pose = [&](double t) -> Isometry3d { return livelyMotion().at(t).T_map_body * T_body_dvl; };
-	for (double t = 10; t < 200; t += 7.9) {
-		const Vector3d v = pose(t).linear().transpose() *
-						   (pose(t + 1e-4).translation() - pose(t - 1e-4).translation()) / 2e-4;
-		const auto o = sensor.measure(livelyMotion().at(t), t);
-		EXPECT_LT((velocityOf(asDvl(o)) - v).norm(), 1e-7) << "t=" << t;
-	}
-}
-
-TEST(SimulatedDvl, BeamsHoldTheVelocityAndEndOnTheFloor)
-{
-	TDvlSpec spec = TSensorSuite::sparus2().dvl.at("DVL");
-	CSimulatedDvl sensor("DVL", spec, quietRanges(), {}, kFloor, 1);
-	const Eigen::Matrix<double, 3, 4> beams = spec.beams();
-	for (double t = 20; t < 100; t += 3) {
-		const auto state = livelyMotion().at(t);
-		const auto o = sensor.measure(state, t);
-		const CObservationDVL& dvl = asDvl(o);
-		const Eigen::Map<const Eigen::Vector4d> along(dvl.beam_velocities.data());
-		const Vector3d solved = (beams * beams.transpose()).ldlt().solve(beams * along);
-		EXPECT_LT((solved - velocityOf(dvl)).norm(), kTiny) << "t=" << t;
-		const Isometry3d T_map_dvl = state.T_map_body * spec.T_body_sensor();
-		for (int i = 0; i < 4; i++)
-			EXPECT_NEAR((T_map_dvl * (dvl.beam_ranges[i] * beams.col(i))).z(), kFloor, 1e-9) << "beam " << i;
-		EXPECT_NEAR(dvl.altitude, kFloor - T_map_dvl.translation().z(), kTiny);
-	}
-}
-
-TEST(SimulatedDvl, NoiseHasTheStatedSigma)
-{
-	TDvlSpec spec;
-	spec.sigma_velocity = 0.02;
-	CSimulatedDvl sensor("DVL", spec, TSimulatedDvlOptions(), {}, kFloor, 11);
-	std::vector<double> x, z, altitude;
-	for (int i = 0; i < 3000; i++) {
-		const auto o = sensor.measure(TVehicleState(), i);
-		x.push_back(asDvl(o).velocity.x);
-		z.push_back(asDvl(o).velocity.z);
-		altitude.push_back(asDvl(o).altitude - kFloor);
-	}
-	expectWhite(x, 0.02, "x");
-	expectWhite(z, 0.02, "z");
-	expectWhite(altitude, 0.01, "altitude");
-}
-
-TEST(SimulatedDvl, LosesTheBottomOutsideItsRange)
-{
-	auto sensor = makeQuietDvl();
-	TVehicleState state;
-	state.T_map_body.translation().z() = kFloor - 0.11 - 0.49;
-	const auto low = sensor.measure(state, 1);
-	EXPECT_FALSE(asDvl(low).velocity_valid || asDvl(low).altitude_valid);
-	EXPECT_TRUE(std::isnan(asDvl(low).beam_velocities[2]) && std::isnan(asDvl(low).beam_ranges[2]));
-	state.T_map_body.translation().z() -= 0.02;
-	const auto high_enough = sensor.measure(state, 2);
-	EXPECT_TRUE(asDvl(high_enough).velocity_valid && asDvl(high_enough).altitude_valid);
-}
-
 TEST(SimulatedPressure, IsThatOfTheSensorsDepth)
 {
 	TPressureSpec spec;
 	spec.pose = {0.4, 0.1, -0.03, 0, 0, 0};
 	spec.sigma = 1e-9;
-	CSimulatedPressure sensor("PRESSURE", spec, 1);
+	CSimulatedPressure sensor("PRESSURE", spec, {}, 1);
 	const auto state = livelyMotion().at(50);
 	const auto o = sensor.measure(state, 50);
 	const double depth = spec.depth(dynamic_cast<CObservationPressure&>(*o).pressure);

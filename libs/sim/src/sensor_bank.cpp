@@ -2,7 +2,6 @@
 #include <posidonia/sim/sensor_bank.h>
 
 #include <algorithm>
-#include <memory>
 
 namespace posidonia
 {
@@ -42,33 +41,31 @@ CSensorBank::CSensorBank(const TSimulationOptions& o, const TSensorSuite& nomina
 {
 	const uint64_t seed = o.run.seed;
 	const auto errors = drawnSigns(o.calibration_error, seed);
-	add(o.run.imu, nominal.imu,
-		[&](auto& l, auto& s) { return std::make_shared<CSimulatedImu>(l, s, o.imu, seed); });
-	add(o.run.ahrs, nominal.ahrs,
-		[&](auto& l, auto& s) { return std::make_shared<CSimulatedAhrs>(l, s, o.ahrs, seed); });
-	add(o.run.dvl, nominal.dvl, [&](auto& l, auto& s) {
-		return std::make_shared<CSimulatedDvl>(l, s, o.dvl, errors, o.floor.depth, seed);
-	});
-	add(o.run.pressure, nominal.pressure,
-		[&](auto& l, auto& s) { return std::make_shared<CSimulatedPressure>(l, s, seed); });
-	add(o.run.gps, nominal.gps,
-		[&](auto& l, auto& s) { return std::make_shared<CSimulatedGps>(l, s, o.gps, o.world, seed); });
-	add(o.run.stereo, nominal.stereo,
-		[&](auto& l, auto& s) { return std::make_shared<CPairAnnouncer>(l, s); });
+	m_models.imu = add<CSimulatedImu>(o.run.imu, nominal.imu, o.imu, seed);
+	m_models.ahrs = add<CSimulatedAhrs>(o.run.ahrs, nominal.ahrs, o.ahrs, seed);
+	m_models.dvl = add<CSimulatedDvl>(o.run.dvl, nominal.dvl, o.dvl, errors, o.floor.depth, seed);
+	m_models.pressure = add<CSimulatedPressure>(o.run.pressure, nominal.pressure, o.pressure, seed);
+	m_models.gps = add<CSimulatedGps>(o.run.gps, nominal.gps, o.gps, o.world, seed);
+	add<CPairAnnouncer>(o.run.stereo, nominal.stereo);
 	if (m_clocks.empty())
 		throw CError(
 			"[Simulation]", "every sensor is switched off", "switch on at least one, e.g. imu = true");
 }
 
-template <class SPECS, class MAKE>
-void CSensorBank::add(bool enabled, const SPECS& specs, MAKE&& make)
+template <class SENSOR, class SPEC, class... ARGS>
+std::map<std::string, std::shared_ptr<const SENSOR>> CSensorBank::add(
+	bool enabled, const std::map<std::string, SPEC>& specs, const ARGS&... args)
 {
-	if (!enabled) return;
-	for (const auto& [label, spec] : specs)
-		m_clocks.push_back(
-			{spec.rate, 0, [sensor = make(label, spec)](const TVehicleState& state, double stamp) {
-				 return sensor->measure(state, stamp);
-			 }});
+	std::map<std::string, std::shared_ptr<const SENSOR>> models;
+	if (!enabled) return models;
+	for (const auto& [label, spec] : specs) {
+		const auto sensor = std::make_shared<SENSOR>(label, spec, args...);
+		models[label] = sensor;
+		m_clocks.push_back({spec.rate, 0, [sensor](const TVehicleState& state, double stamp) {
+								return sensor->measure(state, stamp);
+							}});
+	}
+	return models;
 }
 
 double CSensorBank::stampOfTick(const TClock& clock) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -43,6 +44,15 @@ class CNoise
    public:
 	explicit CNoise(uint64_t seed) : m_generator(seed) {}
 	double normal() { return m_normal(m_generator); }
+	/** N of them, the first drawn first. */
+	template <int N>
+	Eigen::Matrix<double, N, 1> normals()
+	{
+		Eigen::Matrix<double, N, 1> x;
+		for (int i = 0; i < N; i++)
+			x[i] = normal();
+		return x;
+	}
 	double uniform(double lo, double hi) { return lo + (hi - lo) * unitInterval(m_generator()); }
 
    private:

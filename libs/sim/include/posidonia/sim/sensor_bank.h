@@ -3,9 +3,20 @@
 #include <posidonia/sim/simulation_options.h>
 
 #include <functional>
+#include <memory>
 
 namespace posidonia
 {
+/** The simulated instruments by sensorLabel, for the truth of the errors that they drew. */
+struct TSensorModels
+{
+	std::map<std::string, std::shared_ptr<const CSimulatedImu>> imu;
+	std::map<std::string, std::shared_ptr<const CSimulatedAhrs>> ahrs;
+	std::map<std::string, std::shared_ptr<const CSimulatedDvl>> dvl;
+	std::map<std::string, std::shared_ptr<const CSimulatedPressure>> pressure;
+	std::map<std::string, std::shared_ptr<const CSimulatedGps>> gps;
+};
+
 /** All sensors of a vehicle with their clocks. Whoever moves the vehicle (a route in closed form, or dynamics
  * in a loop) brings the true state to nextTime() and asks for the measurement:
  *
@@ -24,6 +35,8 @@ class CSensorBank
 	 * rig and the names of its pictures, LABEL_000012_left.png, but no pixels. Measurements of one instant
 	 * come in the order IMU, AHRS, DVL, pressure, GPS, stereo. */
 	mrpt::obs::CObservation::Ptr measure(const TVehicleState& state);
+	/** Those that are switched on, e.g. models().dvl.at("DVL")->scale(). */
+	const TSensorModels& models() const { return m_models; }
 
    private:
 	struct TClock
@@ -32,12 +45,15 @@ class CSensorBank
 		uint64_t tick{0};
 		std::function<mrpt::obs::CObservation::Ptr(const TVehicleState&, double stamp)> measure;
 	};
-	template <class SPECS, class MAKE>
-	void add(bool enabled, const SPECS& specs, MAKE&& make);
+	/** Makes a sensor of each spec with its clock; returns them by label. */
+	template <class SENSOR, class SPEC, class... ARGS>
+	std::map<std::string, std::shared_ptr<const SENSOR>> add(
+		bool enabled, const std::map<std::string, SPEC>& specs, const ARGS&... args);
 	double stampOfTick(const TClock& clock) const;
 	size_t due() const;	 ///< Index of the clock that is next
 
 	double m_start_time;
 	std::vector<TClock> m_clocks;
+	TSensorModels m_models;
 };
 }  // namespace posidonia

@@ -49,6 +49,7 @@ struct TSimulationOptions
 	TSimulatedImuOptions imu;
 	TSimulatedAhrsOptions ahrs;
 	TSimulatedDvlOptions dvl;
+	TSimulatedPressureOptions pressure;
 	TSimulatedGpsOptions gps;
 	TCalibrationErrorOptions calibration_error;
 
@@ -66,6 +67,7 @@ struct TSimulationOptions
 		f("SimulatedImu", imu);
 		f("SimulatedAhrs", ahrs);
 		f("SimulatedDvl", dvl);
+		f("SimulatedPressure", pressure);
 		f("SimulatedGps", gps);
 		f("CalibrationError", calibration_error);
 	}
