@@ -280,7 +280,8 @@ TEST(EkfOdometry, UnaryMeasurementsAreThoseSinceThePreviousNodeAtThePresent)
 		odometry.clone();
 		const TUnaryMeasurements u = odometry.unary();
 		ASSERT_TRUE(u.depth && u.attitude) << "t=" << truth.t;
-		EXPECT_NEAR(before.depth->value, u.depth->value, 1e-12) << "clone() must not change what the node gets";
+		EXPECT_NEAR(before.depth->value, u.depth->value, 1e-12)
+			<< "clone() must not change what the node gets";
 		EXPECT_NEAR(u.depth->value, truth.T_map_body.translation().z(), 2e-3) << "t=" << truth.t;
 		EXPECT_NEAR(u.depth->sigma, scene.sensors.pressure.at("PRESSURE").sigmaDepth(), 2e-3);
 		EXPECT_LT(logSO3(u.attitude->R_map_body.transpose() * truth.T_map_body.linear()).norm(), 1e-3);

@@ -17,6 +17,7 @@ CEkfOdometry odometryFrom(const TNavScene& scene, const Isometry3d& believed, in
 {
 	TEkfOptions options;
 	options.give_way_after = give_way_after;
+	options.sigma_initial_gyro_bias = 1e-4;	 // else the heading itself soon knows how little it knows
 	return {options, knownStart(believed), scene.sensors, scene.datum};
 }
 
