@@ -107,7 +107,13 @@ void addStates(TConsistency& c, size_t instant, const CEkfOdometry& odometry, co
 	};
 	add("position", kPosition, T * lever - x.position);
 	add("attitude", kAttitude, logSO3(x.R_odom_body.transpose() * T.linear()));
-	add("velocity", kVelocity, truth.vehicle.v_body + truth.vehicle.omega_body.cross(lever) - x.velocity);
+	Eigen::Matrix<double, 3, kNavigationSize> J = Eigen::Matrix<double, 3, kNavigationSize>::Zero();
+	J.block<3, 3>(0, kVelocity) = Eigen::Matrix3d::Identity() / (1 + x.dvl_scale);
+	J.col(kDvlScale) = -x.trueVelocity() / (1 + x.dvl_scale);
+	c.anees["velocity"].add(
+		instant, neesOf(
+					 truth.vehicle.v_body + truth.vehicle.omega_body.cross(lever) - x.trueVelocity(),
+					 J * P * J.transpose()));
 	const Vector3d bias = spec.T_body_sensor().linear() * truth.models.imu.at(label)->gyroBias();
 	add("gyro bias", kGyroBias, bias - x.gyro_bias);
 }

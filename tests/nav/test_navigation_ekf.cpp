@@ -39,7 +39,8 @@ MatrixMoving randomMovingCovariance(std::mt19937& rng)
 	MatrixMoving A;
 	for (int i = 0; i < A.size(); i++)
 		A(i) = n(rng);
-	return 0.01 * (A * A.transpose() / kMovingSize + 0.1 * MatrixMoving::Identity());
+	const MatrixMoving cov = 0.01 * (A * A.transpose() / kMovingSize + 0.1 * MatrixMoving::Identity());
+	return 0.5 * (cov + cov.transpose());
 }
 
 TNavigationState someState(std::mt19937& rng)

@@ -50,12 +50,12 @@ TNavigationState propagated(const TNavigationState& x, const TMotionInput& u, co
 	y.R_odom_body = x.R_odom_body * s.E;
 	if (u.drive == EDrive::INERTIAL) {
 		const Vector3d a = s.force + s.gravity;
-		y.position += x.R_odom_body * (x.velocity * dt + a * (dt * dt / 2));
+		y.position += x.R_odom_body * (x.velocity * dt + a * (dt * dt / 2)) / (1 + x.dvl_scale);
 		y.velocity = s.E.transpose() * (x.velocity + a * dt);
 	}
 	else
 		// The velocity turns with the body: use the attitude half way.
-		y.position += x.R_odom_body * (s.E_half * x.velocity) * dt;
+		y.position += x.R_odom_body * (s.E_half * x.velocity) * (dt / (1 + x.dvl_scale));
 	const auto keep = gaussMarkovDecay(dt, noise);
 	y.ahrs_bias = keep.head<3>().cwiseProduct(x.ahrs_bias);
 	y.gps_bias = keep.tail<2>().cwiseProduct(x.gps_bias);
@@ -73,6 +73,8 @@ void inertialRows(MatrixDriven& F, const TNavigationState& x, const TStep& s, do
 	const Vector3d velocity = Et * (x.velocity + (s.force + s.gravity) * dt);
 	F.block<3, 3>(kPosition, kAttitude) = R * skew(x.velocity * dt + s.force * (dt * dt / 2)) * -1;
 	F.block<3, 3>(kPosition, kVelocity) = R * dt;
+	F.block<3, 1>(kPosition, kDvlScale) =
+		R * (x.velocity * dt + (s.force + s.gravity) * (dt * dt / 2)) / -(1 + x.dvl_scale);
 	F.block<3, 3>(kPosition, kGyroBias) = R * dforce * (dt * dt / 2);
 	F.block<3, 3>(kPosition, kAccelBias) = R * s.E_half * (-dt * dt / 2);
 	F.block<3, 3>(kVelocity, kAttitude) = Et * skew(s.gravity) * dt;
@@ -87,6 +89,7 @@ void walkingRows(MatrixDriven& F, const TNavigationState& x, const TStep& s, dou
 	const Matrix3d R_mid = x.R_odom_body * s.E_half;
 	F.block<3, 3>(kPosition, kAttitude) = x.R_odom_body * skew(s.E_half * x.velocity) * -dt;
 	F.block<3, 3>(kPosition, kVelocity) = R_mid * dt;
+	F.block<3, 1>(kPosition, kDvlScale) = R_mid * x.velocity * (-dt / (1 + x.dvl_scale));
 	F.block<3, 3>(kPosition, kGyroBias) =
 		R_mid * skew(x.velocity) * rightJacobianSO3(s.half_turn) * (dt * dt / 2);
 	F.block<3, 3>(kVelocity, kVelocity).setIdentity();
@@ -101,6 +104,8 @@ MatrixDriven drivenJacobian(const TNavigationState& x, const TMotionInput& u)
 	F.block<3, 3>(kAttitude, kAttitude) = s.E.transpose();
 	F.block<3, 3>(kAttitude, kGyroBias) = rightJacobianSO3(2 * s.half_turn) * -u.dt;
 	u.drive == EDrive::INERTIAL ? inertialRows(F, x, s, u.dt) : walkingRows(F, x, s, u.dt);
+	// Metres of the DVL to those of the world.
+	F.block<3, kDriving - 3>(kPosition, 3) /= 1 + x.dvl_scale;
 	// Nothing is measured, so no bias takes part.
 	if (u.drive == EDrive::KINEMATIC) F.middleCols<3>(kGyroBias).setZero();
 	return F;

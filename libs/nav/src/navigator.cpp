@@ -189,7 +189,7 @@ TBodyRate CNavigator::bodyRate() const
 
 Vector3d CNavigator::velocity() const
 {
-	return m_nav.state().velocity + rate().cross(m_setup->origin);
+	return m_nav.state().trueVelocity() + rate().cross(m_setup->origin);
 }
 
 Vector3d CNavigator::rate() const

@@ -51,15 +51,14 @@ CDvlMeasurement CDvlMeasurement::beams(
 
 CMeasurement::Value CDvlMeasurement::predicted(const TNavigationState& x) const
 {
-	return (1 + x.dvl_scale) * (m_along_body * (x.velocity + (m_rate - x.gyro_bias).cross(m_lever)));
+	return m_along_body * (x.velocity + (m_rate - x.gyro_bias).cross(m_lever));
 }
 
-CMeasurement::Jacobian CDvlMeasurement::jacobian(const TNavigationState& x) const
+CMeasurement::Jacobian CDvlMeasurement::jacobian(const TNavigationState&) const
 {
 	Jacobian H = Jacobian::Zero();
-	H.block<4, 3>(0, kVelocity) = (1 + x.dvl_scale) * m_along_body;
-	H.block<4, 3>(0, kGyroBias) = (1 + x.dvl_scale) * (m_along_body * skew(m_lever));
-	H.col(kDvlScale) = m_along_body * (x.velocity + (m_rate - x.gyro_bias).cross(m_lever));
+	H.block<4, 3>(0, kVelocity) = m_along_body;
+	H.block<4, 3>(0, kGyroBias) = m_along_body * skew(m_lever);
 	return H;
 }
 

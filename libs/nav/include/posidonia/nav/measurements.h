@@ -49,7 +49,8 @@ struct TDvlMount
 };
 
 /** Velocities over ground along some directions of the instrument: its three axes, or 1 to 4 beams.
- * z = (1 + scale) D^T R_dvl_body (v + (w - b) x lever), D the directions (columns). */
+ * z = D^T R_dvl_body (v + (w - b) x lever), D the directions (columns); v is the state's velocity, which has
+ * the instrument's scale. */
 class CDvlMeasurement : public CMeasurement
 {
    public:

@@ -46,7 +46,7 @@ TNavigationState propagated(const TNavigationState& x, const TMotionInput& u, co
 
 /** Rows 0-8 (position, attitude, velocity) of d propagated / d error against the first 15 columns (those
  * three and both biases). The other moving rows keep themselves, times gaussMarkovDecay(). */
-inline constexpr int kDriven = 9, kDriving = 15;
+inline constexpr int kDriven = 9, kDriving = 16;
 using MatrixDriven = Eigen::Matrix<double, kDriven, kDriving>;
 MatrixDriven drivenJacobian(const TNavigationState& x, const TMotionInput& u);
 
