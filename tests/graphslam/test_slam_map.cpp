@@ -161,3 +161,65 @@ TEST(ChainUncertainty, composesTheOdometryEdges)
 	EXPECT_LT((found[2] - expected_13).norm(), 1e-9 * expected_13.norm());
 	EXPECT_LT((found[3] - cov[2]).norm(), 1e-9 * cov[2].norm());
 }
+
+TEST(SlamMap, aRevisedOdometryEdgeIsTheSameInBothGraphs)
+{
+	TBoundMap m;
+	m.addNodes(3);
+	m.addEdge(0, 1, EEdgeKind::ODOMETRY, 1);
+	m.addEdge(1, 2, EEdgeKind::ODOMETRY, 2);
+	m.addEdge(1, 2, EEdgeKind::SEQUENTIAL, 0);
+	TPoseEstimate revised;
+	revised.T.translation() = Eigen::Vector3d(0.5, 0.1, -0.2);
+	revised.cov = 0.01 * Matrix6d::Identity();
+	revised.path_length = 0.6;
+	Isometry3d T_odom_body = Isometry3d::Identity();
+	T_odom_body.translation().x() = 7;
+	m.map.reviseOdometry(2, revised, T_odom_body);
+	ASSERT_EQ(m.map.revisedEdges(), std::vector<int>{1});
+	EXPECT_EQ(m.map.edges()[1].T_from_to.matrix(), revised.T.matrix());
+	EXPECT_EQ(m.map.edges()[1].path_length, 0.6);
+	EXPECT_NEAR(m.map.edges()[1].information(0, 0), 100, 1e-9);
+	EXPECT_EQ(m.map.edges()[2].T_from_to.matrix(), Isometry3d::Identity().matrix());
+	EXPECT_EQ(m.map.node(2).T_odom_body.translation().x(), 7);
+	const auto& mrpts = m.graph.edges.lower_bound({1, 2})->second;
+	EXPECT_LT((fromMrpt(mrpts.mean).matrix() - revised.T.matrix()).norm(), 1e-12);
+	EXPECT_THROW(m.map.reviseOdometry(0, revised, T_odom_body), CError);
+}
+
+TEST(SlamMap, lateReadingsReachTheGraphAsRevisedEdges)
+{
+	// A tenth of the DVL's pings come half a second late: each edge is revised, and the graph ends where that
+	// of the log in order does.
+	const auto edgesOfRun = [](bool late) {
+		CStereoSlam slam(
+			TSetup().slam, survey().sensors, survey().ekf(),
+			std::make_unique<CStereoImageLoader>(survey().rawlog), "");
+		std::vector<mrpt::obs::CObservation::Ptr> waiting;
+		int pings = 0;
+		for (const auto& o : survey().observations) {
+			if (slam.map().nodeCount() > 4) break;
+			while (!waiting.empty() && stampOf(*o) - stampOf(*waiting.front()) > 0.4) {
+				slam.add(waiting.front());
+				waiting.erase(waiting.begin());
+			}
+			if (late && o->sensorLabel == "DVL" && ++pings % 10 == 0)
+				waiting.push_back(o);
+			else
+				slam.add(o);
+		}
+		return std::make_pair(slam.map().edges(), slam.map().revisedEdges().size());
+	};
+	const auto [in_order, none] = edgesOfRun(false);
+	const auto [late, revised] = edgesOfRun(true);
+	EXPECT_EQ(none, 0U);
+	EXPECT_GT(revised, 0U);
+	const auto firstOdometry = [](const std::vector<TSlamEdge>& edges, int to) {
+		for (const auto& e : edges)
+			if (e.kind == EEdgeKind::ODOMETRY && e.to == to) return e.T_from_to;
+		return Isometry3d::Identity();
+	};
+	for (int to = 1; to <= 3; to++)
+		EXPECT_LT((firstOdometry(in_order, to).matrix() - firstOdometry(late, to).matrix()).norm(), 2e-3)
+			<< "edge to node " << to;
+}

@@ -121,7 +121,15 @@ void addStates(TConsistency& c, size_t instant, const CEkfOdometry& odometry, co
 
 void addRun(TConsistency& c, const TSurveyScene& scene, double period, double edge_time)
 {
-	CEkfOdometry odometry = odometryFor(scene);
+	addRun(c, scene, scene.sensors, period, edge_time);
+}
+
+void addRun(
+	TConsistency& c, const TSurveyScene& told, const TSensorSuite& world, double period, double edge_time)
+{
+	CEkfOdometry odometry = odometryFor(told);
+	TSurveyScene scene = told;
+	scene.sensors = world;
 	Eigen::Isometry3d T_map_clone;
 	double next_clone = -1;
 	size_t instant = 0;

@@ -47,6 +47,10 @@ struct TConsistency
 
 /** Runs the scene; an instant each `period` [s], an edge (a node each `edge_time` s) ends there. */
 void addRun(TConsistency& to, const TSurveyScene& scene, double period = 60, double edge_time = 1.5);
+/** The same where the world's sensors are others than those that the filter is told of. */
+void addRun(
+	TConsistency& to, const TSurveyScene& told, const TSensorSuite& world, double period = 60,
+	double edge_time = 1.5);
 /** A table a reader can judge. */
 std::string text(const TConsistency& c);
 }  // namespace posidonia::testing

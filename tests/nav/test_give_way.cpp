@@ -108,7 +108,7 @@ TEST(GiveWay, TheLongestGapIsThatOfTheReadingsUsed)
 		const bool lost = truth.t > 20 && truth.t < 27;
 		if (!lost || !dynamic_cast<const CObservationDVL*>(&o)) odometry.add(o);
 	});
-	EXPECT_NEAR(odometry.statistics().sensors.at("DVL").longest_gap, 7.0, 0.21);
+	EXPECT_NEAR(odometry.statistics().sensors.at("DVL").longest_gap, 7.2, 0.41);  // two pings must agree
 	EXPECT_NE(odometry.statistics().text().find("longest gap 7."), std::string::npos)
 		<< odometry.statistics().text();
 }

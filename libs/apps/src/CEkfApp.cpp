@@ -5,6 +5,7 @@
 #include <posidonia/base/files.h>
 #include <posidonia/eval/trajectory_io.h>
 #include <posidonia/geometry/mrpt_pose.h>
+#include <posidonia/nav/ekf_odometry.h>
 #include <posidonia/obs/observations.h>
 
 #include <chrono>
@@ -47,6 +48,8 @@ void CEkfApp::run()
 	m_results.rawlog = m_folder->file(m_input.name() + "-ekf.rawlog");
 	CRawlogReader reader(m_input.rawlog);
 	const auto odometry = params.makeCleanOdometry(m_input.sensors);
+	if (auto* ekf = dynamic_cast<CEkfOdometry*>(odometry.get()))
+		ekf->withoutEdges();  // nobody makes nodes here
 	CRawlogWriter writer(m_results.rawlog);
 	replay(*odometry, reader, writer);
 	if (m_results.ekf.empty())

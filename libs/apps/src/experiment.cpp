@@ -1,4 +1,5 @@
 #include <posidonia/apps/experiment.h>
+#include <posidonia/nav/cola2_odometry.h>
 #include <posidonia/nav/ekf_odometry.h>
 
 #include <filesystem>
@@ -11,6 +12,7 @@ TExperiment TExperiment::load(CIniFile& ini, TSensorSuite& sensors)
 	const auto section = [&](const char* name, auto& options) { ini.loadOnto(options, name); };
 	e.simulation.forEachSection(section);
 	section("Ekf", e.ekf);
+	section("Drag", e.drag);
 	section("InitialPose", e.initial_pose);
 	section("Odometry", e.odometry);
 	section("RecordedOdometry", e.recorded);
@@ -27,7 +29,9 @@ TExperiment TExperiment::load(CIniFile& ini, TSensorSuite& sensors)
 std::unique_ptr<COdometrySource> TExperiment::makeCleanOdometry(const TSensorSuite& sensors) const
 {
 	if (odometry.source == "recorded") return std::make_unique<CRecordedOdometry>(recorded);
-	return std::make_unique<CEkfOdometry>(ekf, initial_pose, sensors, simulation.world);
+	if (ekf.mode == "cola2")
+		return std::make_unique<CCola2Odometry>(ekf, initial_pose, sensors, simulation.world);
+	return std::make_unique<CEkfOdometry>(ekf, initial_pose, sensors, simulation.world, drag);
 }
 
 std::unique_ptr<COdometrySource> TExperiment::makeOdometry(const TSensorSuite& sensors) const
@@ -51,8 +55,10 @@ Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry)
 
 std::string navigationText(const COdometrySource& odometry)
 {
-	const auto* ekf = dynamic_cast<const CEkfOdometry*>(&behindCorruptor(odometry));
-	return ekf ? ekf->statistics().text() : std::string();
+	const COdometrySource& source = behindCorruptor(odometry);
+	if (const auto* ekf = dynamic_cast<const CEkfOdometry*>(&source)) return ekf->statistics().text();
+	if (const auto* cola2 = dynamic_cast<const CCola2Odometry*>(&source)) return cola2->statistics().text();
+	return {};
 }
 
 TSensorSuite sensorsOfRawlog(const std::string& rawlog, bool assume_defaults)

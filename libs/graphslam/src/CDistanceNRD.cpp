@@ -11,6 +11,7 @@ bool CDistanceNRD::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObse
 {
 	const auto pair = std::dynamic_pointer_cast<CObservationStereoImages>(observation);
 	if (!pair || !m_parts->odometry.ready()) return false;
+	if (stampOf(*pair) < m_parts->odometry.stamp()) return false;  // late: the present has moved on
 	if (m_parts->map.nodeCount() == 0) {
 		registerRoot(stampOf(*pair));
 		return true;

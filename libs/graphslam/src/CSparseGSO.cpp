@@ -55,7 +55,14 @@ bool CSparseGSO::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObserv
 
 bool CSparseGSO::follow()
 {
-	return append(m_pose_graph, m_parts->map, m_parts->options.loss);
+	const CSlamMap& map = m_parts->map;
+	const bool revised = m_revised_seen < map.revisedEdges().size();
+	for (; m_revised_seen < map.revisedEdges().size(); m_revised_seen++) {
+		const int e = map.revisedEdges()[m_revised_seen];
+		if (static_cast<size_t>(e) < m_pose_graph.edgeCount())
+			m_pose_graph.setEdge(e, toPoseEdge(map.edges()[static_cast<size_t>(e)], m_parts->options.loss));
+	}
+	return append(m_pose_graph, map, m_parts->options.loss) || revised;
 }
 
 void CSparseGSO::optimizeGraph()

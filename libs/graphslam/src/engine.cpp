@@ -119,6 +119,10 @@ void CStereoSlam::add(const CObservation::Ptr& observation)
 	{
 		const mrpt::system::CTimeLoggerEntry timing(timer(), "odometry");
 		m_impl->odometry->add(*observation);
+		// The n-th clone was made at node n.
+		for (const TRevisedEdge& r : m_impl->odometry->takeRevisedEdges())
+			if (r.clone > 0)
+				m_impl->parts.map.reviseOdometry(static_cast<int>(r.clone), r.edge, r.T_odom_body);
 	}
 	CActionCollection::Ptr no_action;
 	CSensoryFrame::Ptr no_frame;

@@ -1,6 +1,8 @@
+#include <posidonia/base/error.h>
 #include <posidonia/geometry/mrpt_pose.h>
 #include <posidonia/graphslam/slam_map.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <queue>
@@ -37,6 +39,27 @@ void CSlamMap::addEdge(const TSlamEdge& edge)
 	m_graph->insertEdgeAtEnd(
 		static_cast<mrpt::graphs::TNodeID>(edge.from), static_cast<mrpt::graphs::TNodeID>(edge.to),
 		toMrptGaussianInf(edge.T_from_to, edge.information));
+}
+
+void CSlamMap::reviseOdometry(int to, const TPoseEstimate& revised, const Isometry3d& T_odom_body)
+{
+	const auto& at_node = m_edges_of.at(static_cast<size_t>(to));
+	const auto found = std::find_if(at_node.begin(), at_node.end(), [&](int e) {
+		const TSlamEdge& edge = m_edges[static_cast<size_t>(e)];
+		return edge.kind == EEdgeKind::ODOMETRY && edge.to == to;
+	});
+	if (found == at_node.end())
+		throw CError("node " + std::to_string(to), "no odometry edge ends there", "revise a later node");
+	TSlamEdge& edge = m_edges[static_cast<size_t>(*found)];
+	edge.T_from_to = revised.T;
+	edge.information = revised.cov.inverse();
+	edge.path_length = revised.path_length;
+	m_nodes[static_cast<size_t>(to)].T_odom_body = T_odom_body;
+	m_revised.push_back(*found);
+	// MRPT's graph keeps edges between two nodes in the order of their coming: odometry comes first.
+	const auto ids = std::make_pair(
+		static_cast<mrpt::graphs::TNodeID>(edge.from), static_cast<mrpt::graphs::TNodeID>(edge.to));
+	m_graph->edges.lower_bound(ids)->second = toMrptGaussianInf(edge.T_from_to, edge.information);
 }
 
 void CSlamMap::setKeyFrame(int i, std::shared_ptr<const TKeyFrame> key_frame)

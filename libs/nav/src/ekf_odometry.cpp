@@ -33,7 +33,7 @@ void CEkfOdometry::take(const TSensorReading& reading)
 		resetClock(reading);
 	else if (m_history.contains(reading))
 		count.duplicate++;
-	else if (arrival == EArrival::LATE) {
+	else if (arrival == EArrival::LATE || !m_history.isNewest(reading)) {
 		count.replayed++;
 		replay(reading);
 	}
@@ -65,10 +65,10 @@ void CEkfOdometry::reviseEdge(double stamp, const TCloneMark& mark, double newes
 		m_revised.begin(), m_revised.end(), [&](const auto& r) { return r.clone == mark.index; });
 	if (known == m_revised.end()) {
 		m_counts.edges_revised++;
-		m_revised.push_back({mark.index, m_navigator.sinceClone()});
+		m_revised.push_back({mark.index, m_navigator.sinceClone(), m_navigator.now().T});
 	}
 	else
-		known->edge = m_navigator.sinceClone();
+		*known = {mark.index, m_navigator.sinceClone(), m_navigator.now().T};
 }
 
 void CEkfOdometry::resetClock(const TSensorReading& reading)

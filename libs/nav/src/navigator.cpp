@@ -6,9 +6,19 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+namespace
+{
+/** The filter starts at the first fix and takes the others as any, so it may move meanwhile. */
+TInitialPoseOptions fromOneFix(TInitialPoseOptions start)
+{
+	start.gps_fixes = 1;
+	return start;
+}
+}  // namespace
+
 CNavigator::TMemory::TMemory(const TNavigatorSetup& setup)
 	: sensors(setup.sensor.size()),
-	  initializer(setup.start, setup.origin),
+	  initializer(fromOneFix(setup.start), setup.origin),
 	  drag(setup.drag),
 	  rest(
 		  setup.driving_imu < 0 ? 0 : std::sqrt(setup.rate_variance),
@@ -54,8 +64,8 @@ void CNavigator::resetClock(double stamp)
 {
 	const double by = stamp - m.stamp;
 	for (double* t :
-		 {&m.stamp, &m.imu_stamp, &m.clone_stamp, &m.previous_clone_stamp, &m.velocity_stamp, &m.drag_stamp,
-		  &m.depth.stamp, &m.attitude.stamp, &m.fix.stamp})
+		 {&m.stamp, &m.imu_stamp, &m.clone_stamp, &m.previous_clone_stamp, &m.velocity_stamp,
+		  &m.unconfirmed_stamp, &m.drag_stamp, &m.depth.stamp, &m.attitude.stamp, &m.fix.stamp})
 		*t += by;
 	for (TSensorMemory& sensor : m.sensors) {
 		sensor.count.last_used += by;
@@ -67,7 +77,7 @@ void CNavigator::predictTo(double t, const TInertialReading& imu)
 {
 	const double from = m.stamp;
 	m.stamp = t;
-	if (!m.ready || !(t > from)) return;
+	if (!m.started || !(t > from)) return;
 	const bool silent = t - m.imu_stamp > m_setup->options.imu_time_out;
 	const EDrive drive = silent ? EDrive::KINEMATIC : m_setup->drive;
 	// Derivatives hold for small turns; a silence is walked in steps.
@@ -106,7 +116,7 @@ void correlateStart(MatrixMoving& cov, const Matrix3d& R, const Vector3d& origin
 
 void CNavigator::startIfComplete()
 {
-	if (m.ready || !m.initializer.complete()) return;
+	if (m.started || !m.initializer.complete()) return;
 	if (m_setup->driving_imu >= 0 && !m.has_rate) return;
 	const TEkfOptions& o = m_setup->options;
 	const TPoseEstimate start = m.initializer.pose();
@@ -127,8 +137,31 @@ void CNavigator::startIfComplete()
 	if (!m_setup->start.known) correlateStart(cov, x.R_odom_body, m_setup->origin);
 	m_nav.initialize(x, cov);
 	m_edge.initialize(x, cov);
-	m_edge.anchor(m_nav);
+	m.started = true;
+	m.fixes = 1;
+	m.fix_stamp = m.stamp;
+	if (m_setup->start.known || m.fixes >= m_setup->start.gps_fixes) becomeReady();
+}
+
+void CNavigator::countFix()
+{
+	if (m.ready) return;
+	const bool gap = m.stamp - m.fix_stamp > m_setup->start.gps_max_gap;
+	m.fix_stamp = m.stamp;
+	if (gap) {
+		m.started = false;
+		m.initializer = TMemory(*m_setup).initializer;
+	}
+	else if (++m.fixes >= m_setup->start.gps_fixes)
+		becomeReady();
+}
+
+void CNavigator::becomeReady()
+{
 	m.ready = true;
+	m.path = 0;
+	m_nav.clone();
+	m_edge.anchor(m_nav);
 }
 
 void CNavigator::clone()

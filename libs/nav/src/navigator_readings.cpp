@@ -32,7 +32,7 @@ void CNavigator::apply(const TSensorReading& reading, const TInertialReading& im
 	m.has_rate = true;
 	use(reading);
 	startIfComplete();
-	if (!m.ready) return;
+	if (!m.started) return;
 	bridgeLossOfLock();
 	restIfStill(reading);
 }
@@ -41,7 +41,7 @@ void CNavigator::apply(const TSensorReading& reading, const TAttitudeReading& at
 {
 	predictTo(reading.stamp, m.imu);
 	const TAhrsSpec& spec = *specOf(reading).ahrs;
-	if (m.ready) {
+	if (m.started) {
 		fuseAttitude(reading, attitude);
 		return;
 	}
@@ -88,14 +88,30 @@ bool CNavigator::beamsContradict(const TNavigatorSetup::TSensor& sensor, const T
 	return error * error > m_nav.gate(1) * variance;
 }
 
+bool CNavigator::isConfirmed(const TDvlReading& dvl)
+{
+	const double silence = m_setup->options.dvl_time_out;
+	if (m.stamp - m.velocity_stamp <= silence || !dvl.has_velocity) return true;
+	// What a vehicle may do between two pings, and their noise.
+	constexpr double kAcceleration = 0.5, kSigmas = 5;
+	const double since = m.stamp - m.unconfirmed_stamp,
+				 allowed = kAcceleration * since + kSigmas * std::sqrt(2 * dvl.cov.trace());
+	const bool agrees = since <= silence && (dvl.velocity - m.unconfirmed).norm() <= allowed;
+	m.unconfirmed = dvl.velocity;
+	m.unconfirmed_stamp = m.stamp;
+	return agrees;
+}
+
 void CNavigator::apply(const TSensorReading& reading, const TDvlReading& dvl)
 {
 	predictTo(reading.stamp, m.imu);
 	const TNavigatorSetup::TSensor& sensor = specOf(reading);
-	if (!m.ready)
+	if (!m.started)
 		countOf(reading).idle++;
 	else if (beamsContradict(sensor, dvl))
 		countOf(reading).inconsistent++;
+	else if (!isConfirmed(dvl))
+		countOf(reading).gated++;
 	else if (fuse(dvlMeasurement(sensor, dvl), true, reading.sensor)) {
 		m.velocity_stamp = m.stamp;
 		m.dragging = false;
@@ -107,7 +123,7 @@ void CNavigator::apply(const TSensorReading& reading, const TDepthReading& depth
 	predictTo(reading.stamp, m.imu);
 	const TNavigatorSetup::TSensor& sensor = specOf(reading);
 	const double sigma = sensor.pressure->sigmaDepth();
-	if (!m.ready) {
+	if (!m.started) {
 		countOf(reading).idle++;
 		m.initializer.addDepth(depth.depth, sigma, sensor.lever);
 		startIfComplete();
@@ -127,13 +143,13 @@ void CNavigator::apply(const TSensorReading& reading, const TFixReading& fix)
 	predictTo(reading.stamp, m.imu);
 	const TNavigatorSetup::TSensor& sensor = specOf(reading);
 	const double sigma = sensor.gps->sigma_horizontal;
-	if (!m.ready) {
+	if (!m.started) {
 		countOf(reading).idle++;
 		m.initializer.addFix(reading.stamp, fix.north_east, sigma, sensor.lever);
 		startIfComplete();
 		return;
 	}
-	if (!m_setup->options.use_gps) {
+	if (!m_setup->options.use_gps && m.ready) {
 		countOf(reading).idle++;
 		return;
 	}
@@ -143,6 +159,7 @@ void CNavigator::apply(const TSensorReading& reading, const TFixReading& fix)
 		return;
 	}
 	if (!fuse(CHorizontalMeasurement(fix.north_east, sigma, sensor.lever), false, reading.sensor)) return;
+	countFix();
 	keep(m.fix);
 	const Vector3d from_body = sensor.lever - m_setup->origin;
 	m.fix.body_position.value =

@@ -20,7 +20,7 @@ TNavigatorSetup::TNavigatorSetup(
 
 void TNavigatorSetup::chooseDrive()
 {
-	if (options.mode == "kinematic") {
+	if (options.mode == "kinematic" || options.mode == "cola2") {
 		drive = EDrive::KINEMATIC;
 		return;
 	}

@@ -48,6 +48,9 @@ Vector3d COdometryCorruptor::offset() const
 
 void COdometryCorruptor::clone()
 {
+	constexpr size_t kRemembered = 64;	// far more edges than end within the filter's hold
+	m_drifts.push_back({m_clones++, m_R_map_clone, offset() - m_offset_at_clone, offset()});
+	if (m_drifts.size() > kRemembered) m_drifts.pop_front();
 	m_source->clone();
 	m_offset_at_clone = offset();
 	m_R_map_clone = m_source->now().T.linear();
@@ -64,10 +67,28 @@ Matrix6d COdometryCorruptor::declaredCovariance(double way, const Eigen::Matrix3
 
 TPoseEstimate COdometryCorruptor::sinceClone() const
 {
-	TPoseEstimate edge = m_source->sinceClone();
-	edge.T.translation() += m_R_map_clone.transpose() * (offset() - m_offset_at_clone);
-	edge.cov += declaredCovariance(edge.path_length, m_R_map_clone * edge.T.linear());
+	return corrupted(m_source->sinceClone(), m_R_map_clone, offset() - m_offset_at_clone);
+}
+
+TPoseEstimate COdometryCorruptor::corrupted(
+	TPoseEstimate edge, const Eigen::Matrix3d& R_map_from, const Vector3d& drift) const
+{
+	edge.T.translation() += R_map_from.transpose() * drift;
+	edge.cov += declaredCovariance(edge.path_length, R_map_from * edge.T.linear());
 	return edge;
+}
+
+std::vector<TRevisedEdge> COdometryCorruptor::takeRevisedEdges()
+{
+	std::vector<TRevisedEdge> revised;
+	for (TRevisedEdge& r : m_source->takeRevisedEdges())
+		for (const TEdgeDrift& d : m_drifts)
+			if (d.clone == r.clone) {
+				r.edge = corrupted(r.edge, d.R_map_from, d.drift);
+				r.T_odom_body.translation() += d.offset;
+				revised.push_back(r);
+			}
+	return revised;
 }
 
 TPoseEstimate COdometryCorruptor::now() const
@@ -80,6 +101,7 @@ TPoseEstimate COdometryCorruptor::now() const
 
 TDeclaredDrift COdometryCorruptor::declaredDrift() const
 {
-	return {m_options.declaredXY(), m_options.declaredZ()};
+	const TDeclaredDrift own = m_source->declaredDrift();
+	return {std::hypot(own.sigma_xy, m_options.declaredXY()), std::hypot(own.sigma_z, m_options.declaredZ())};
 }
 }  // namespace posidonia

@@ -54,6 +54,19 @@ int CPoseGraph::addEdge(const TPoseEdge& edge)
 	return index;
 }
 
+void CPoseGraph::setEdge(int index, const TPoseEdge& other)
+{
+	const TPoseEdge& old = edge(index);
+	const char* problem = other.from == old.from && other.to == old.to
+							  ? edgeProblem(other, int(m_poses.size()))
+							  : "it joins other nodes";
+	if (problem)
+		throw CError(
+			"edge " + std::to_string(index), problem,
+			"replace it by one from " + std::to_string(old.from) + " to " + std::to_string(old.to));
+	m_edges[index] = other;
+}
+
 const TPoseEdge& CPoseGraph::edge(int index) const
 {
 	if (index < 0 || index >= int(m_edges.size()))

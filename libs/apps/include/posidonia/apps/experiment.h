@@ -45,6 +45,7 @@ struct TExperiment
 {
 	TSimulationOptions simulation;
 	TEkfOptions ekf;
+	TDragOptions drag;
 	TInitialPoseOptions initial_pose;
 	TOdometryChoice odometry;
 	TRecordedOdometryOptions recorded;

@@ -27,6 +27,7 @@ class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlam
 	void optimizeGraph() override;
 
    private:
+	/** Takes over what is new in the map; true when that is a reason to optimise. */
 	bool follow();
 
 	CPoseGraph m_pose_graph;
@@ -35,6 +36,7 @@ class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlam
 		m_marginals;  // of the first m_marginal_nodes nodes, until the next optimisation
 	int m_marginal_nodes{0};
 	bool m_just_optimized{false};
+	size_t m_revised_seen{0};  ///< Of the map's revised edges
 };
 
 /** The map as a pose graph: nodes at their present poses, the root fixed, robust losses on the stereo edges.

@@ -2,6 +2,7 @@
 
 #include <mrpt/graphs/CNetworkOfPoses.h>
 #include <posidonia/geometry/se3.h>
+#include <posidonia/nav/odometry_source.h>
 
 #include <memory>
 #include <string>
@@ -67,6 +68,12 @@ class CSlamMap
 	/** Adds an edge to MRPT's graph, too. */
 	void addEdge(const TSlamEdge& edge);
 
+	/** Gives the odometry edge that ends at node `to` another value, and the node its odometry's pose. Throws
+	 * CError when there is no such edge. */
+	void reviseOdometry(int to, const TPoseEstimate& edge, const Eigen::Isometry3d& T_odom_body);
+	/** Indices of edges that were revised, in order; it only grows. */
+	const std::vector<int>& revisedEdges() const { return m_revised; }
+
 	int nodeCount() const { return static_cast<int>(m_nodes.size()); }
 	int lastNode() const { return nodeCount() - 1; }
 	const TSlamNode& node(int i) const { return m_nodes[static_cast<size_t>(i)]; }
@@ -90,6 +97,7 @@ class CSlamMap
 	TSlamGraph* m_graph{nullptr};
 	std::vector<TSlamNode> m_nodes;
 	std::vector<TSlamEdge> m_edges;
+	std::vector<int> m_revised;
 	std::vector<std::vector<int>> m_edges_of;  // indices of the edges at each node
 };
 

@@ -31,6 +31,7 @@ class CNavigator
 
 	/** `reading.stamp` must not lie before stamp(). A clone mark clones. */
 	void apply(const TSensorReading& reading);
+	/** Started, and, where the start is not known, settled on as many fixes as the options ask for. */
 	bool ready() const { return m.ready; }
 	double stamp() const { return m.stamp; }
 	/** Continues at another stamp without moving: the clock was set. */
@@ -91,7 +92,9 @@ class CNavigator
 	struct TMemory
 	{
 		TMemory(const TNavigatorSetup& setup);
-		bool ready{false}, has_rate{false};
+		bool started{false}, ready{false}, has_rate{false};
+		int fixes{0};  ///< In a row since the start
+		double fix_stamp{0};
 		double stamp{std::numeric_limits<double>::quiet_NaN()};
 		double imu_stamp{-std::numeric_limits<double>::infinity()};
 		TInertialReading imu{{0, 0, 0}, {0, 0, 0}};
@@ -104,6 +107,8 @@ class CNavigator
 		CDragModel drag;
 		CRestDetector rest;
 		double velocity_stamp{std::numeric_limits<double>::quiet_NaN()};  ///< Of the last DVL reading used
+		Eigen::Vector3d unconfirmed{0, 0, 0};  ///< The first ping after a silence, instrument frame [m/s]
+		double unconfirmed_stamp{-std::numeric_limits<double>::infinity()};
 		double drag_stamp{0}, drag_time{0};
 		bool dragging{false};
 		TKeptDepth depth;
@@ -142,12 +147,18 @@ class CNavigator
 	void predictTo(double t, const TInertialReading& imu);
 	void predict(const TMotionInput& u);
 	void startIfComplete();
+	/** Counts a fix towards ready(); a gap that is too long starts anew (COLA2's rule). */
+	void countFix();
+	void becomeReady();
 	void clone();
 	/** Without bottom lock: a reading of the drag model each second. */
 	void bridgeLossOfLock();
 	void restIfStill(const TSensorReading& reading);
 	TBodyRate bodyRate() const;
 	CDvlMeasurement dvlMeasurement(const TNavigatorSetup::TSensor& sensor, const TDvlReading& dvl) const;
+	/** After a silence the first ping is believed when the next one agrees: nothing else could tell a gross
+	 * error then. */
+	bool isConfirmed(const TDvlReading& dvl);
 	bool beamsContradict(const TNavigatorSetup::TSensor& sensor, const TDvlReading& dvl) const;
 	bool fuseAttitude(const TSensorReading& reading, const TAttitudeReading& attitude);
 	/** Fuses and counts; an increments' sensor goes to the edge filter too. False: refused. */

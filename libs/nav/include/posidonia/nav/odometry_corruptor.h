@@ -3,6 +3,7 @@
 #include <posidonia/base/options.h>
 #include <posidonia/nav/odometry_source.h>
 
+#include <deque>
 #include <limits>
 #include <memory>
 #include <random>
@@ -69,6 +70,9 @@ class COdometryCorruptor : public COdometrySource
 	TDeclaredDrift declaredDrift() const override;
 	TUnaryMeasurements unary() const override { return m_source->unary(); }
 
+	/** The source's, with the drift that the edges had when they were handed out. */
+	std::vector<TRevisedEdge> takeRevisedEdges() override;
+
 	const COdometrySource& source() const { return *m_source; }
 
    private:
@@ -92,5 +96,17 @@ class COdometryCorruptor : public COdometrySource
 	Eigen::Vector3d m_offset{0, 0, 0};		   ///< At the last stereo pair
 	Eigen::Vector3d m_offset_at_clone{0, 0, 0};
 	Eigen::Matrix3d m_R_map_clone{Eigen::Matrix3d::Identity()};
+	/** What the drift did to the edge that ended at a clone. */
+	struct TEdgeDrift
+	{
+		size_t clone;
+		Eigen::Matrix3d R_map_from;
+		Eigen::Vector3d drift;	 ///< Map axes [m]
+		Eigen::Vector3d offset;	 ///< At its end, map axes [m]
+	};
+	std::deque<TEdgeDrift> m_drifts;  ///< Of the last edges
+	size_t m_clones{0};
+	TPoseEstimate corrupted(
+		TPoseEstimate edge, const Eigen::Matrix3d& R_map_from, const Eigen::Vector3d& drift) const;
 };
 }  // namespace posidonia

@@ -59,6 +59,7 @@ struct TRevisedEdge
 {
 	size_t clone{0};  ///< It ended at this call of clone(), counted from 0
 	TPoseEstimate edge;
+	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};  ///< At that clone, as it is known now
 };
 
 /** Where the engine's odometry comes from. Fed with EVERY observation in order of arrival (stereo pairs too:

@@ -19,6 +19,11 @@ class CReadingHistory
 	void append(const TSensorReading& reading, const CNavigator& navigator);
 	/** Earliest stamp that insert() takes [s]. */
 	double horizon() const;
+	/** Does it belong behind all others? */
+	bool isNewest(const TSensorReading& reading) const
+	{
+		return m_begin == m_end || !reading.isBefore(at(m_end - 1));
+	}
 	bool contains(const TSensorReading& reading) const;
 	/** Puts a late reading in its place, takes `navigator` back and applies everything after; `before(mark)`
 	 * is called before each clone mark on the way. */

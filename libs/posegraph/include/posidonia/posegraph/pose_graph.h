@@ -36,6 +36,8 @@ class CPoseGraph
 	const std::vector<TPoseEdge>& edges() const { return m_edges; }
 	/** Throws CError when there is no such edge. */
 	const TPoseEdge& edge(int index) const;
+	/** Replaces an edge between the same two nodes. Throws CError as addEdge(), and when the nodes differ. */
+	void setEdge(int edge_index, const TPoseEdge& edge);
 	void setLoss(int edge_index, const TRobustLoss& loss);
 
 	/** T_map_node of every node. */
