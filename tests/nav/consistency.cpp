@@ -124,6 +124,15 @@ void addRun(TConsistency& c, const TSurveyScene& scene, double period, double ed
 	addRun(c, scene, scene.sensors, period, edge_time);
 }
 
+namespace
+{
+/** A time when no sensor but the IMU reads: nodes at others' stamps would make late readings of these. */
+double afterOthers(double t)
+{
+	return std::round(t * 20) / 20 + 0.005;
+}
+}  // namespace
+
 void addRun(
 	TConsistency& c, const TSurveyScene& told, const TSensorSuite& world, double period, double edge_time)
 {
@@ -141,7 +150,7 @@ void addRun(
 		// A stamp is complete with its IMU reading; others come between.
 		if (!odometry.ready() || o->sensorLabel != "IMU") return;
 		const double t = truth.vehicle.t;
-		const bool due = t >= period * static_cast<double>(instant + 1);
+		const bool due = t >= afterOthers(period * static_cast<double>(instant + 1));
 		if (due) {
 			addStates(c, instant, odometry, truth);
 			const TPoseEstimate edge = odometry.sinceClone();
@@ -153,10 +162,10 @@ void addRun(
 		if (!due && t < next_clone) return;
 		odometry.clone();
 		T_map_clone = truth.vehicle.T_map_body;
-		next_clone = t + edge_time - 1e-6;
 		// The edge that ends at the next instant shall be a whole one.
 		const double to_instant = period * static_cast<double>(instant + 1) - t;
-		if (next_clone - t > to_instant - edge_time) next_clone = t + std::max(to_instant, edge_time);
+		const bool last = to_instant < 2 * edge_time;
+		next_clone = afterOthers(t + (last ? to_instant + edge_time : edge_time));
 	});
 	c.runs++;
 	for (auto& [what, anees] : c.anees)

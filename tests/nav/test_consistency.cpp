@@ -8,19 +8,20 @@ using namespace posidonia::testing;
 
 TEST(Consistency, TheFilterIsAsAccurateAsItSays)
 {
-	constexpr int kSeeds = 10;
-	constexpr double kDuration = 240;
+	constexpr int kSeeds = 20;
+	constexpr double kDuration = 120;
 	TConsistency c;
 	for (unsigned seed = 501; seed < 501 + kSeeds; seed++) {
 		TSurveyScene scene = surfaceHour(kDuration, seed);
-		scene.sensors.gps.at("GPS").bias_time = 20;	 // the instants of a short run shall be independent
-		addRun(c, scene, 20);
+		scene.sensors.gps.at("GPS").bias_time = 20;
+		addRun(c, scene, 10);
 	}
 	for (const auto& [what, anees] : c.anees) {
-		EXPECT_EQ(anees.sum.size(), 12U) << what;
-		EXPECT_GE(anees.shareInside(), 0.8) << what << "\n" << text(c);
-		EXPECT_GT(anees.mean(), 0.8) << what << "\n" << text(c);
-		EXPECT_LT(anees.mean(), 1.2) << what << "\n" << text(c);
+		EXPECT_EQ(anees.sum.size(), 11U) << what;
+		EXPECT_GE(anees.shareInside(), 0.7) << what << "\n" << text(c);
+		// The instants of a short run are nearly one for the position: no narrower than the band of one.
+		EXPECT_GT(anees.mean(), anees.low()) << what << "\n" << text(c);
+		EXPECT_LT(anees.mean(), anees.high()) << what << "\n" << text(c);
 	}
 	for (const auto& [label, nis] : c.nis) {
 		EXPECT_GT(nis.mean(), 0.9) << label << "\n" << text(c);

@@ -7,18 +7,20 @@ using namespace posidonia;
 using MapNav = Eigen::Map<MatrixNav>;  // symmetric, so its storage order does not matter
 constexpr int kObs = CMeasurement::kSize;
 
+using Driven9 = Eigen::Matrix<double, kDriven, kDriven>;
+
 /** P <- F P F^T + Q of the driven rows, with everything else's correlations to them; the rest of F is a
- * diagonal and comes after. lazyProduct: at these sizes Eigen's blocked product costs twice the arithmetic.
- */
-void predictDriven(MapNav& P, const MatrixDriven& F, const Eigen::Matrix<double, kDriven, kDriven>& Q)
+ * diagonal and comes after. */
+void predictDriven(MapNav& P, const MatrixDriven& F, const Driven9& Q)
 {
 	constexpr int kRest = kNavigationSize - kDriven;
-	const Eigen::Matrix<double, kDriven, kNavigationSize> FP = F.lazyProduct(P.topRows<kDriving>());
-	Eigen::Matrix<double, kDriven, kDriven> driven = Q;
-	driven += FP.leftCols<kDriving>().lazyProduct(F.transpose());
-	P.topLeftCorner<kDriven, kDriven>() = 0.5 * (driven + driven.transpose());
-	P.topRightCorner<kDriven, kRest>() = FP.rightCols<kRest>();
-	P.bottomLeftCorner<kRest, kDriven>() = FP.rightCols<kRest>().transpose();
+	const Eigen::Matrix<double, kNavigationSize, kDriven> PFt = timesTransposed<kNavigationSize>(P, F);
+	const Eigen::Matrix<double, kDriving, kDriven> Ft = F.transpose();
+	for (int i = 0; i < kDriven; i++)
+		for (int j = 0; j <= i; j++)
+			P(i, j) = P(j, i) = Q(i, j) + Ft.col(i).dot(PFt.col(j).head<kDriving>());
+	P.bottomLeftCorner<kRest, kDriven>() = PFt.bottomRows<kRest>();
+	P.topRightCorner<kDriven, kRest>() = PFt.bottomRows<kRest>().transpose();
 }
 
 /** The rows that walk or fade: a diagonal F and Q. */

@@ -167,16 +167,16 @@ void CNavigationEKF::OnTransitionModel(const KFArray_ACT& u, KFArray_VEH& x, boo
 
 void CNavigationEKF::OnTransitionJacobian(KFMatrix_VxV& F) const
 {
+	m_driven = drivenJacobian(m_nominal, m_input);
 	F.asEigen().setIdentity();
-	F.asEigen().topLeftCorner<kDriven, kDriving>() = drivenJacobian(m_nominal, m_input);
+	F.asEigen().topLeftCorner<kDriven, kDriving>() = m_driven;
 	F.asEigen().diagonal().segment<5>(kAhrsBias) = gaussMarkovDecay(m_input.dt, m_noise);
 }
 
 void CNavigationEKF::OnTransitionNoise(KFMatrix_VxV& Q) const
 {
 	Q.asEigen().setZero();
-	Q.asEigen().topLeftCorner<kDriven, kDriven>() =
-		drivenNoise(m_nominal, m_input, drivenJacobian(m_nominal, m_input), m_noise);
+	Q.asEigen().topLeftCorner<kDriven, kDriven>() = drivenNoise(m_nominal, m_input, m_driven, m_noise);
 	Q.asEigen().diagonal().segment<kMovingSize - kDriven>(kDriven) = walkingNoise(m_input.dt, m_noise);
 }
 

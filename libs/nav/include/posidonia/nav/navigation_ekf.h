@@ -109,6 +109,7 @@ class CNavigationEKF : public mrpt::bayes::CKalmanFilterCapable<kNavigationSize,
 	double m_gate[CMeasurement::kSize + 1];	 ///< Chi-square quantile by degrees of freedom
 	TNavigationState m_nominal, m_nominal_next;
 	TMotionInput m_input;
+	mutable MatrixDriven m_driven;	///< OnTransitionJacobian()'s, for OnTransitionNoise() right after it
 	const CMeasurement* m_measurement{nullptr};	 ///< During an update only
 	CStepObserver* m_observer{nullptr};
 	bool m_gated{true}, m_accepted{false};
