@@ -67,9 +67,35 @@ TEST(EkfApp, TrajectoryIsNearTheTruthAndInTheFile)
 		metric(readMetricsJson(folder / "ekf/metrics.json"), "ekf.poses"), static_cast<double>(r.ekf.size()));
 	const std::string log = fileBytes(folder / "ekf/run.log");
 	for (const char* part :
-		 {"final sigmas: north", "DVL: used", "PRESSURE: used", "x real time", "3D error: mean"})
+		 {"final sigmas: north", "DVL: used", "PRESSURE: used", "x real time", "ekf, 3D error: mean"})
 		EXPECT_HOLDS(log, part);
 	EXPECT_TRUE(fs::exists(folder / "ekf/config.ini"));
+}
+
+TEST(EkfApp, SmoothedPosesAreInTheirFileAndScored)
+{
+	const CTempFolder folder;
+	const auto r = runEkf(folder, {"--smooth", "--rate", "5"});
+	expectSameTrajectory(folder / "ekf/smoothed.tum", r.smoothed);
+	EXPECT_NEAR(static_cast<double>(r.smoothed.size()), static_cast<double>(r.ekf.size()), 3);
+	EXPECT_LT(metric(r.metrics, "smoothed.ate.unaligned.max"), 0.1);
+	EXPECT_HOLDS(fileBytes(folder / "ekf/run.log"), "smoothed, 3D error: mean");
+	CEkfApp app;
+	EXPECT_THROW(
+		runApp(
+			app, {"-c", survey().ini, "-r", survey().rawlog, "--smooth", "--set", "Ekf.mode=cola2", "-o",
+				  folder / "c"}),
+		CUsageError);
+}
+
+TEST(EkfApp, EveryModeFollowsTheVehicle)
+{
+	const CTempFolder folder;
+	for (const char* mode : {"ins", "gyro", "kinematic", "cola2"}) {
+		const auto r = runEkf(folder, {"--set", std::string("Ekf.mode=") + mode});
+		EXPECT_LT(metric(r.metrics, "ekf.ate.unaligned.max"), 0.2) << mode;
+		EXPECT_NEAR(metric(r.metrics, "navigation.way"), survey().summary.path_length, 0.5) << mode;
+	}
 }
 
 TEST(EkfApp, RateLimitsThePoses)

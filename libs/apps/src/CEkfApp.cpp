@@ -5,7 +5,7 @@
 #include <posidonia/base/files.h>
 #include <posidonia/eval/trajectory_io.h>
 #include <posidonia/geometry/mrpt_pose.h>
-#include <posidonia/nav/ekf_odometry.h>
+#include <posidonia/nav/rts_smoother.h>
 #include <posidonia/obs/observations.h>
 
 #include <chrono>
@@ -30,11 +30,21 @@ bool CEkfApp::initialize(int argc, const char* const* argv)
 	CReplayCommand replay(line);
 	TCLAP::ValueArg<double> rate(
 		"", "rate", "At most so many poses a second (default: 10)", false, 10, "HZ", line.cmd());
+	TCLAP::SwitchArg smooth(
+		"", "smooth",
+		"Also write smoothed.tum: poses that know what came after them (Rauch-Tung-Striebel), for use after the "
+		"mission",
+		line.cmd());
 	if (!line.parse(argc, argv)) return false;
 
 	if (!(rate.getValue() > 0)) throw CUsageError("--rate", "must be > 0", "give poses a second");
 	if (!replay.load(line.ini(), m_input, params)) return false;
 	m_rate = rate.getValue();
+	m_smooth = smooth.getValue();
+	if (m_smooth && (params.odometry.source != "ekf" || params.ekf.mode == "cola2"))
+		throw CUsageError(
+			"--smooth", "needs our own navigation filter",
+			"set [Odometry] source = ekf and [Ekf] mode = ins, gyro or kinematic");
 	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_input.name() + "-ekf");
 	return true;
 }
@@ -48,8 +58,10 @@ void CEkfApp::run()
 	m_results.rawlog = m_folder->file(m_input.name() + "-ekf.rawlog");
 	CRawlogReader reader(m_input.rawlog);
 	const auto odometry = params.makeCleanOdometry(m_input.sensors);
-	if (auto* ekf = dynamic_cast<CEkfOdometry*>(odometry.get()))
-		ekf->withoutEdges();  // nobody makes nodes here
+	auto* ekf = dynamic_cast<CEkfOdometry*>(odometry.get());
+	if (ekf) ekf->withoutEdges();  // nobody makes nodes here
+	m_readings.clear();
+	if (m_smooth) ekf->keepReadings(m_readings);
 	CRawlogWriter writer(m_results.rawlog);
 	replay(*odometry, reader, writer);
 	if (m_results.ekf.empty())
@@ -65,6 +77,7 @@ void CEkfApp::run()
 	summarize(m_results.last);
 	logSummary(
 		*odometry, reader, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+	if (m_smooth) smooth(*ekf);
 	if (m_has_pictures) linkImages();
 	if (!m_input.truth.empty()) score();
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
@@ -110,6 +123,15 @@ void CEkfApp::writePose(const COdometrySource& odometry, CRawlogWriter& writer)
 	m_results.ekf.push_back({odometry.stamp(), now.T});
 }
 
+void CEkfApp::smooth(const CEkfOdometry& odometry)
+{
+	m_folder->log("smoothing " + std::to_string(m_readings.size()) + " readings", m_input.verbosity);
+	CRtsSmoother smoother(odometry.sharedSetup());
+	for (const TStampedEstimate& e : smoother.smooth(std::move(m_readings), 1 / m_rate))
+		m_results.smoothed.push_back({e.stamp, e.pose.T});
+	writeTum(m_folder->file("smoothed.tum"), m_results.smoothed);
+}
+
 void CEkfApp::linkImages()
 {
 	const fs::path images = imagesFolderOf(m_input.rawlog), link = imagesFolderOf(m_results.rawlog);
@@ -148,17 +170,22 @@ void CEkfApp::summarize(const TPoseEstimate& last)
 
 void CEkfApp::score()
 {
-	const auto evaluation =
-		evaluateRun("ekf", m_results.ekf, readTrajectory(m_input.truth), params.evaluation);
-	m_results.metrics.insert(m_results.metrics.end(), evaluation.metrics.begin(), evaluation.metrics.end());
-	const auto value = [&](const char* what) { return metric(m_results.metrics, what); };
-	m_folder->log(
-		mrpt::format(
-			"3D error: mean %.4f m, worst %.4f m, at the end %.4f m unaligned; mean %.4f m "
-			"yaw+position-aligned",
-			value("ekf.ate.unaligned.mean"), value("ekf.ate.unaligned.max"), value("ekf.end_error.unaligned"),
-			value("ekf.ate.yaw_position.mean")),
-		m_input.verbosity);
+	const TTrajectory truth = readTrajectory(m_input.truth);
+	const auto add = [&](const std::string& what, const TTrajectory& estimate) {
+		const auto evaluation = evaluateRun(what, estimate, truth, params.evaluation);
+		TMetrics& metrics = m_results.metrics;
+		metrics.insert(metrics.end(), evaluation.metrics.begin(), evaluation.metrics.end());
+		const auto value = [&](const char* name) { return metric(metrics, what + name); };
+		m_folder->log(
+			mrpt::format(
+				"%s, 3D error: mean %.4f m, worst %.4f m, at the end %.4f m unaligned; mean %.4f m "
+				"yaw+position-aligned",
+				what.c_str(), value(".ate.unaligned.mean"), value(".ate.unaligned.max"),
+				value(".end_error.unaligned"), value(".ate.yaw_position.mean")),
+			m_input.verbosity);
+	};
+	add("ekf", m_results.ekf);
+	if (!m_results.smoothed.empty()) add("smoothed", m_results.smoothed);
 	m_folder->log("truth: " + m_input.truth, m_input.verbosity - 1);
 }
 

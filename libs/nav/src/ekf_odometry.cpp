@@ -43,6 +43,7 @@ void CEkfOdometry::take(const TSensorReading& reading)
 
 void CEkfOdometry::append(const TSensorReading& reading)
 {
+	if (m_kept && reading.sensor >= 0) m_kept->push_back(reading);
 	m_history.append(reading, m_navigator);
 	m_navigator.apply(reading);
 }
@@ -50,6 +51,7 @@ void CEkfOdometry::append(const TSensorReading& reading)
 void CEkfOdometry::replay(const TSensorReading& late)
 {
 	m_counts.replays++;
+	if (m_kept) m_kept->push_back(late);
 	const double newest = stamp();
 	m_history.insertAndReplay(
 		late, m_navigator, [&](double stamp, const TCloneMark& mark) { reviseEdge(stamp, mark, newest); });

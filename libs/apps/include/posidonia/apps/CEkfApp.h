@@ -2,6 +2,7 @@
 
 #include <posidonia/apps/replay_command.h>
 #include <posidonia/apps/run_folder.h>
+#include <posidonia/nav/ekf_odometry.h>
 #include <posidonia/obs/rawlog_reader.h>
 #include <posidonia/obs/rawlog_writer.h>
 
@@ -26,8 +27,9 @@ class CEkfApp
 	/** What came out, in memory; the run folder holds the same. */
 	struct TResults
 	{
-		TTrajectory ekf;	 ///< T_odom_body
-		TPoseEstimate last;	 ///< With the way since the start
+		TTrajectory ekf;	   ///< T_odom_body
+		TTrajectory smoothed;  ///< With --smooth
+		TPoseEstimate last;	   ///< With the way since the start
 		size_t observations{0};
 		TMetrics metrics;
 		std::string folder, rawlog;
@@ -44,10 +46,14 @@ class CEkfApp
 	/** Rows "navigation....": way, duration, sigmas of the last pose. */
 	void summarize(const TPoseEstimate& last);
 	void score();
+	/** smoothed.tum: the filter's way back over the readings. */
+	void smooth(const CEkfOdometry& odometry);
 	void logSummary(const COdometrySource& odometry, const CRawlogReader& reader, double seconds);
 
 	TReplayInput m_input;
 	double m_rate{10};	///< [Hz]
+	bool m_smooth{false};
+	std::vector<TSensorReading> m_readings;	 ///< For smoothing
 	std::unique_ptr<CRunFolder> m_folder;
 	bool m_has_pictures{false};	 ///< Does any observation refer to a picture file?
 	TResults m_results;

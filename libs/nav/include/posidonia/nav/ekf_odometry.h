@@ -36,9 +36,12 @@ class CEkfOdometry : public COdometrySource
 	const CNavigationEKF& navigationFilter() const { return m_navigator.navigationFilter(); }
 	const CNavigationEKF& edgeFilter() const { return m_navigator.edgeFilter(); }
 	const TNavigatorSetup& setup() const { return *m_setup; }
+	std::shared_ptr<const TNavigatorSetup> sharedSetup() const { return m_setup; }
 	TNavStatistics statistics() const;
 	/** For runs without nodes, at half the cost: sinceClone() and clone() may not be called. */
 	void withoutEdges() { m_navigator.withoutEdges(); }
+	/** From now on appends every reading that is believed by its stamp to `to`, which must live longer. */
+	void keepReadings(std::vector<TSensorReading>& to) { m_kept = &to; }
 
    private:
 	void take(const TSensorReading& reading);
@@ -55,6 +58,7 @@ class CEkfOdometry : public COdometrySource
 	CStampGuard m_guard;
 	size_t m_clones{0};
 	std::vector<TRevisedEdge> m_revised;
+	std::vector<TSensorReading>* m_kept{nullptr};
 	TNavStatistics m_counts;  ///< Of the whole, not by sensor
 };
 }  // namespace posidonia
