@@ -158,9 +158,9 @@ TEST(EkfApp, TheDriftOfTheIniIsLeftOut)
 	runEkf(folder);
 	const std::string clean = fileBytes(folder / "ekf/ekf.tum");
 	runEkf(folder, {"--set", "OdometryCorruption.drift_xy=0.1"});
-	EXPECT_EQ(clean, fileBytes(folder / "ekf/ekf.tum"));
-	runEkf(folder, {"--set", "Ekf.acceleration_density=0.3"});
-	EXPECT_NE(clean, fileBytes(folder / "ekf/ekf.tum")) << "the filter's own options count";
+	EXPECT_TRUE(clean == fileBytes(folder / "ekf/ekf.tum"));
+	runEkf(folder, {"--set", "Ekf.sigma_initial_velocity=0.1"});
+	EXPECT_TRUE(clean != fileBytes(folder / "ekf/ekf.tum")) << "the filter's own options count";
 }
 
 TEST(EkfApp, WorksWithoutTruthAndOnATruncatedLog)

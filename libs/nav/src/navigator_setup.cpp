@@ -9,8 +9,8 @@ TNavigatorSetup::TNavigatorSetup(
 	: options(o), drag(model), start(s), sensors(suite), datum(d)
 {
 	chooseDrive();
-	if (!sensors.imu.empty() && drive != EDrive::KINEMATIC)
-		origin = -sensors.imu.begin()->second.T_body_sensor().translation();
+	// Where no accelerometer drives, the body's origin is the point whose velocity changes least.
+	if (drive == EDrive::INERTIAL) origin = -sensors.imu.begin()->second.T_body_sensor().translation();
 	addSensors();
 	noise = motionNoise();
 	if (driving_imu < 0) return;

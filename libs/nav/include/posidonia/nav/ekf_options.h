@@ -15,7 +15,7 @@ struct TEkfOptions
 	/** Body velocity walks at random with this density. COLA2's filter has 0.032 (0.02 (m/s^2)^2 at 20 Hz).
 	 */
 	double acceleration_density{0.03};
-	double turn_density{0.05};
+	double turn_density{0.2};
 	double sigma_initial_velocity{0.5};	 ///< Each axis [m/s]
 	double sigma_initial_gyro_bias{
 		0.0087};						   ///< [rad/s], turn-on bias of ADIS16448 in uuv_simulator's IMU set

@@ -3,8 +3,8 @@
 #include <posidonia/geometry/se3.h>
 
 /** State of the navigation filter as plain functions; see README for the equations. The filter navigates one
- * point of the body, that of the driving IMU, in body axes ("nav" frame): its accelerometers then need no
- * lever arm. */
+ * point of the body in body axes ("nav" frame): that of the driving IMU, whose accelerometers then need no
+ * lever arm, or the body's origin where no accelerometer drives. */
 namespace posidonia
 {
 /** Rows of the error state. The first kMovingSize rows move, the clone's stay. */
