@@ -91,10 +91,13 @@ TEST(EkfApp, SmoothedPosesAreInTheirFileAndScored)
 TEST(EkfApp, EveryModeFollowsTheVehicle)
 {
 	const CTempFolder folder;
-	for (const char* mode : {"ins", "gyro", "kinematic", "cola2"}) {
+	// Without a gyro, the DVL's lever arm makes motion of turns on the spot.
+	const std::pair<const char*, double> modes[] = {
+		{"ins", 0.1}, {"gyro", 0.2}, {"kinematic", 1.0}, {"cola2", 0.2}};
+	for (const auto& [mode, metres] : modes) {
 		const auto r = runEkf(folder, {"--set", std::string("Ekf.mode=") + mode});
-		EXPECT_LT(metric(r.metrics, "ekf.ate.unaligned.max"), 0.2) << mode;
-		EXPECT_NEAR(metric(r.metrics, "navigation.way"), survey().summary.path_length, 0.5) << mode;
+		EXPECT_LT(metric(r.metrics, "ekf.ate.unaligned.max"), metres) << mode;
+		EXPECT_NEAR(metric(r.metrics, "navigation.way"), survey().summary.path_length, 0.3 + metres) << mode;
 	}
 }
 
