@@ -58,7 +58,7 @@ int main(int argc, char** argv)
 	std::cout << "seeds " << first << " to " << first + count - 1 << ", " << duration << " s each\n\n";
 	std::vector<TConsistency> runs(count);
 	forEachSeed(
-		first, count, [&](unsigned i, unsigned seed) { addRun(runs[i], surfaceHour(duration, seed)); });
+		first, count, [&](unsigned i, unsigned seed) { addRun(runs[i], surfaceHour(duration + 1, seed)); });
 	TConsistency all;
 	for (const TConsistency& run : runs)
 		all += run;

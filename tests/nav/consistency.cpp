@@ -105,7 +105,12 @@ void addStates(TConsistency& c, size_t instant, const CEkfOdometry& odometry, co
 	const auto add = [&](const char* what, int row, const Vector3d& error) {
 		c.anees[what].add(instant, neesOf(error, P.block<3, 3>(row, row)));
 	};
-	add("position", kPosition, T * lever - x.position);
+	const Vector3d position = T * lever - x.position;
+	c.anees["position"].degrees_of_freedom = 2;
+	c.anees["position"].add(instant, neesOf(position.head<2>(), P.block<2, 2>(kPosition, kPosition)));
+	// Nothing observes the pressure's offset: a run has one error of depth.
+	c.anees["depth"].degrees_of_freedom = 1;
+	c.anees["depth"].add(instant, neesOf(position.tail<1>(), P.block<1, 1>(kPosition + 2, kPosition + 2)));
 	add("attitude", kAttitude, logSO3(x.R_odom_body.transpose() * T.linear()));
 	Eigen::Matrix<double, 3, kNavigationSize> J = Eigen::Matrix<double, 3, kNavigationSize>::Zero();
 	J.block<3, 3>(0, kVelocity) = Eigen::Matrix3d::Identity() / (1 + x.dvl_scale);

@@ -39,7 +39,8 @@ struct TNis
 
 struct TConsistency
 {
-	std::map<std::string, TAnees> anees;  ///< position, velocity, attitude, gyro bias, edge
+	/** position (north, east: while GPS), depth, velocity, attitude, gyro bias, edge */
+	std::map<std::string, TAnees> anees;
 	std::map<std::string, TNis> nis;	  ///< By label
 	int runs{0};
 	TConsistency& operator+=(const TConsistency& other);

@@ -238,3 +238,40 @@ TEST(Arrival, NothingIsAllocatedOnceTheHistoryIsFull)
 		odometry.add(*log[i]);
 	EXPECT_EQ(allocations() - before, 0U);
 }
+
+TEST(Arrival, PicturesThatComeLateMakeTheSameEdges)
+{
+	// Each stereo pair comes 0.13 s after its stamp, when later readings have been fused.
+	TNavScene scene;
+	scene.duration = 20;
+	const auto edgesWith = [&](double delay) {
+		CEkfOdometry odometry({}, knownStart(scene.start), scene.sensors, scene.datum);
+		std::vector<TPoseEstimate> edges;
+		std::vector<CObservation::Ptr> waiting;
+		const auto node = [&](const CObservation& pair) {
+			odometry.add(pair);
+			EXPECT_EQ(odometry.stamp(), stampOf(pair));
+			edges.push_back(odometry.sinceClone());
+			odometry.clone();
+			EXPECT_LT(odometry.sinceClone().cov.norm(), 1e-14);
+		};
+		CNavSimulator(scene).run([&](const CObservation& o, const TNavTruth&) {
+			while (!waiting.empty() && stampOf(o) > stampOf(*waiting.front()) + delay) {
+				node(*waiting.front());
+				waiting.erase(waiting.begin());
+			}
+			if (o.sensorLabel == "STEREO")
+				waiting.push_back(std::dynamic_pointer_cast<CObservation>(o.duplicateGetSmartPtr()));
+			else
+				odometry.add(o);
+		});
+		EXPECT_EQ(odometry.takeRevisedEdges().size(), 0U);
+		return edges;
+	};
+	const auto at_once = edgesWith(0), late = edgesWith(0.13);
+	ASSERT_GT(late.size(), 45U);
+	for (size_t i = 0; i < late.size(); i++) {
+		EXPECT_LT((late[i].T.matrix() - at_once[i].T.matrix()).norm(), 1e-12) << "edge " << i;
+		EXPECT_LT((late[i].cov - at_once[i].cov).norm(), 1e-15) << "edge " << i;
+	}
+}

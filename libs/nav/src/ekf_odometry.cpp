@@ -10,6 +10,7 @@ CEkfOdometry::CEkfOdometry(
 	: m_setup(std::make_shared<const TNavigatorSetup>(options, drag, start, sensors, datum)),
 	  m_decoder(m_setup),
 	  m_navigator(m_setup),
+	  m_past(m_setup),
 	  m_history(options.history, m_navigator),
 	  m_guard(options.max_stamp_jump)
 {
@@ -17,6 +18,7 @@ CEkfOdometry::CEkfOdometry(
 
 void CEkfOdometry::add(const mrpt::obs::CObservation& observation)
 {
+	m_in_past = false;
 	m_decoder.decode(observation, [this](const TSensorReading& reading) { take(reading); });
 }
 
@@ -24,7 +26,7 @@ void CEkfOdometry::take(const TSensorReading& reading)
 {
 	TSensorCount dummy;	 // a picture of a rig without an entry
 	TSensorCount& count = reading.sensor < 0 ? dummy : m_decoder.count(reading.sensor);
-	const EArrival arrival = m_guard.judge(reading.stamp, stamp(), m_history.horizon());
+	const EArrival arrival = m_guard.judge(reading.stamp, m_navigator.stamp(), m_history.horizon());
 	if (arrival == EArrival::TOO_LATE)
 		count.late++;
 	else if (arrival == EArrival::JUMPED)
@@ -35,7 +37,8 @@ void CEkfOdometry::take(const TSensorReading& reading)
 		count.duplicate++;
 	else if (arrival == EArrival::LATE || !m_history.isNewest(reading)) {
 		count.replayed++;
-		replay(reading);
+		m_in_past = std::holds_alternative<TTick>(reading.what);
+		m_in_past ? m_history.rewind(reading, m_past) : replay(reading);
 	}
 	else
 		append(reading);
@@ -51,14 +54,15 @@ void CEkfOdometry::append(const TSensorReading& reading)
 void CEkfOdometry::replay(const TSensorReading& late)
 {
 	m_counts.replays++;
-	if (m_kept) m_kept->push_back(late);
-	const double newest = stamp();
+	if (m_kept && late.sensor >= 0) m_kept->push_back(late);
+	const double newest = m_navigator.stamp();
 	m_history.insertAndReplay(
 		late, m_navigator, [&](double stamp, const TCloneMark& mark) { reviseEdge(stamp, mark, newest); });
 }
 
 void CEkfOdometry::reviseEdge(double stamp, const TCloneMark& mark, double newest)
 {
+	if (mark.index == m_clones) return;	 // it is being made
 	if (newest - stamp > m_setup->options.edge_hold) {
 		m_counts.edges_kept++;
 		return;
@@ -83,7 +87,14 @@ void CEkfOdometry::resetClock(const TSensorReading& reading)
 
 void CEkfOdometry::clone()
 {
-	append({stamp(), -1, TCloneMark{m_clones++}});
+	const TSensorReading mark{stamp(), -1, TCloneMark{m_clones}};
+	if (m_in_past) {
+		m_past.apply(mark);
+		replay(mark);
+	}
+	else
+		append(mark);
+	m_clones++;
 }
 
 std::vector<TRevisedEdge> CEkfOdometry::takeRevisedEdges()

@@ -85,6 +85,7 @@ void CNavigator::predictTo(double t, const TInertialReading& imu)
 	const int steps = std::max(1, static_cast<int>(std::ceil((t - from) / kLongest)));
 	for (int i = 0; i < steps; i++)
 		predict({drive, imu.rate, imu.force, (t - from) / steps});
+	bridgeLossOfLock();
 }
 
 void CNavigator::predict(const TMotionInput& u)

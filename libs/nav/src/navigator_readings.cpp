@@ -32,9 +32,7 @@ void CNavigator::apply(const TSensorReading& reading, const TInertialReading& im
 	m.has_rate = true;
 	use(reading);
 	startIfComplete();
-	if (!m.started) return;
-	bridgeLossOfLock();
-	restIfStill(reading);
+	if (m.started) restIfStill(reading);
 }
 
 void CNavigator::apply(const TSensorReading& reading, const TAttitudeReading& attitude)

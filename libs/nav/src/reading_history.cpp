@@ -71,13 +71,30 @@ bool CReadingHistory::contains(const TSensorReading& reading) const
 
 const CReadingHistory::TSlot& CReadingHistory::insert(const TSensorReading& reading)
 {
-	const size_t place = placeOf(reading);
+	const size_t place = std::max(placeOf(reading), slot(0).next);	// what the oldest snapshot holds stays
 	push(reading);
 	for (size_t i = m_end - 1; i > place; i--)
 		std::swap(at(i), at(i - 1));
-	while (m_slot_count > 1 && slot(m_slot_count - 1).next > place)
-		m_slot_count--;	 // they have not seen it; replaying takes them anew
+	m_slot_count = slotBefore(place) + 1;  // later ones have not seen it; replaying takes them anew
 	return slot(m_slot_count - 1);
+}
+
+size_t CReadingHistory::slotBefore(size_t place) const
+{
+	size_t i = m_slot_count - 1;
+	while (i > 0 && slot(i).next > place)
+		i--;
+	return i;
+}
+
+void CReadingHistory::rewind(const TSensorReading& tick, CNavigator& view) const
+{
+	const size_t place = placeOf(tick);
+	const TSlot& from = slot(slotBefore(place));
+	view.restore(from.snapshot);
+	for (size_t i = from.next; i < place; i++)
+		view.apply(at(i));
+	view.apply(tick);
 }
 
 void CReadingHistory::clear()

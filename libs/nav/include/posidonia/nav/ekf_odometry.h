@@ -7,7 +7,8 @@
 namespace posidonia
 {
 /** Odometry from IMU, DVL, pressure, AHRS and GPS: a CNavigator whose observations may come late, twice or
- * with wrong stamps. */
+ * with wrong stamps. After a stereo pair that came late, the present is that of the pair, until the next
+ * observation: nodes are where the pictures were taken, whatever the camera's delay. */
 class CEkfOdometry : public COdometrySource
 {
    public:
@@ -19,19 +20,19 @@ class CEkfOdometry : public COdometrySource
 
 	void add(const mrpt::obs::CObservation& observation) override;
 	/** From the first gyro reading on (known pose), or after the fixes, the AHRS and the pressure as well. */
-	bool ready() const override { return m_navigator.ready(); }
-	double stamp() const override { return m_navigator.stamp(); }
+	bool ready() const override { return present().ready(); }
+	double stamp() const override { return present().stamp(); }
 	void clone() override;
-	TPoseEstimate sinceClone() const override { return m_navigator.sinceClone(); }
-	TPoseEstimate now() const override { return m_navigator.now(); }
-	TUnaryMeasurements unary() const override { return m_navigator.unary(); }
+	TPoseEstimate sinceClone() const override { return present().sinceClone(); }
+	TPoseEstimate now() const override { return present().now(); }
+	TUnaryMeasurements unary() const override { return present().unary(); }
 	/** The DVL's scale, as uncertain as the filter still is about it. */
 	TDeclaredDrift declaredDrift() const override;
 	std::vector<TRevisedEdge> takeRevisedEdges() override;
 
 	/** Velocity over ground in body axes [m/s] and rate without bias [rad/s], for controllers. */
-	Eigen::Vector3d velocity() const { return m_navigator.velocity(); }
-	Eigen::Vector3d rate() const { return m_navigator.rate(); }
+	Eigen::Vector3d velocity() const { return present().velocity(); }
+	Eigen::Vector3d rate() const { return present().rate(); }
 	const CNavigator& navigator() const { return m_navigator; }
 	const CNavigationEKF& navigationFilter() const { return m_navigator.navigationFilter(); }
 	const CNavigationEKF& edgeFilter() const { return m_navigator.edgeFilter(); }
@@ -44,6 +45,7 @@ class CEkfOdometry : public COdometrySource
 	void keepReadings(std::vector<TSensorReading>& to) { m_kept = &to; }
 
    private:
+	const CNavigator& present() const { return m_in_past ? m_past : m_navigator; }
 	void take(const TSensorReading& reading);
 	void append(const TSensorReading& reading);
 	void replay(const TSensorReading& late);
@@ -54,6 +56,8 @@ class CEkfOdometry : public COdometrySource
 	std::shared_ptr<const TNavigatorSetup> m_setup;
 	CReadingDecoder m_decoder;
 	CNavigator m_navigator;
+	CNavigator m_past;	///< At a stereo pair that came late
+	bool m_in_past{false};
 	CReadingHistory m_history;
 	CStampGuard m_guard;
 	size_t m_clones{0};

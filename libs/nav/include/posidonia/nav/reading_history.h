@@ -29,6 +29,8 @@ class CReadingHistory
 	 * is called before each clone mark on the way. */
 	template <class BEFORE_MARK>
 	void insertAndReplay(const TSensorReading& reading, CNavigator& navigator, BEFORE_MARK&& before);
+	/** Takes `view` to the state that the readings up to `tick`, itself included, lead to. */
+	void rewind(const TSensorReading& tick, CNavigator& view) const;
 	void clear();
 
    private:
@@ -48,6 +50,8 @@ class CReadingHistory
 	void takeSnapshotIfDue(double stamp, size_t next, const CNavigator& navigator);
 	/** Where a late reading belongs. */
 	size_t placeOf(const TSensorReading& reading) const;
+	/** The newest snapshot that has not seen the reading at `place`. */
+	size_t slotBefore(size_t place) const;
 	/** Puts it there; returns the snapshot to start from. */
 	const TSlot& insert(const TSensorReading& reading);
 
