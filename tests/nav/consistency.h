@@ -41,7 +41,7 @@ struct TConsistency
 {
 	/** position (north, east: while GPS), depth, velocity, attitude, gyro bias, edge */
 	std::map<std::string, TAnees> anees;
-	std::map<std::string, TNis> nis;	  ///< By label
+	std::map<std::string, TNis> nis;  ///< By label
 	int runs{0};
 	TConsistency& operator+=(const TConsistency& other);
 };
