@@ -26,9 +26,11 @@ size_t CGzInput::Read(void* buffer, size_t count)
 	while (done < count) {
 		const size_t chunk = std::min<size_t>(count - done, 1u << 30);
 		const int got = gzread(m_file, to + done, static_cast<unsigned>(chunk));
-		int status = Z_OK;
-		gzerror(m_file, &status);
-		m_broken = m_broken || got < 0 || (status != Z_OK && status != Z_STREAM_END);
+		if (got != static_cast<int>(chunk)) {  // the end, or trouble
+			int status = Z_OK;
+			gzerror(m_file, &status);
+			m_broken = m_broken || got < 0 || (status != Z_OK && status != Z_STREAM_END);
+		}
 		if (got <= 0) break;
 		done += static_cast<size_t>(got);
 	}
