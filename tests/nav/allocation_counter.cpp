@@ -20,6 +20,11 @@ void* operator new(size_t n)
 	if (void* p = std::malloc(n)) return p;
 	throw std::bad_alloc();
 }
+void* operator new(size_t n, const std::nothrow_t&) noexcept  // std::stable_sort's
+{
+	g_allocations++;
+	return std::malloc(n);
+}
 void operator delete(void* p) noexcept
 {
 	std::free(p);
