@@ -32,9 +32,8 @@ bool CEkfApp::initialize(int argc, const char* const* argv)
 		"", "rate", "At most so many poses a second (default: 10)", false, 10, "HZ", line.cmd());
 	TCLAP::SwitchArg smooth(
 		"", "smooth",
-		"Also write smoothed.tum: poses that know what came after them (Rauch-Tung-Striebel), for use after "
-		"the "
-		"mission",
+		"Also write smoothed.tum: poses that know what came after them (Rauch-Tung-Striebel), for use "
+		"after the mission",
 		line.cmd());
 	if (!line.parse(argc, argv)) return false;
 

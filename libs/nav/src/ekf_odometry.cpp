@@ -106,7 +106,7 @@ std::vector<TRevisedEdge> CEkfOdometry::takeRevisedEdges()
 
 TDeclaredDrift CEkfOdometry::declaredDrift() const
 {
-	return {std::sqrt(navigationFilter().covariance()(kDvlScale, kDvlScale)), 0};
+	return {std::sqrt(navigationFilter().variance(kDvlScale)), 0};
 }
 
 TNavStatistics CEkfOdometry::statistics() const

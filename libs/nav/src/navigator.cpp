@@ -151,7 +151,7 @@ void CNavigator::countFix()
 	m.fix_stamp = m.stamp;
 	if (gap) {
 		m.started = false;
-		m.initializer = TMemory(*m_setup).initializer;
+		m.initializer = CPoseInitializer(fromOneFix(m_setup->start), m_setup->origin);
 	}
 	else if (++m.fixes >= m_setup->start.gps_fixes)
 		becomeReady();

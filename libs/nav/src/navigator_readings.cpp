@@ -200,7 +200,7 @@ void CNavigator::restIfStill(const TSensorReading& reading)
 
 double CNavigator::variance(int row) const
 {
-	return m_nav.covariance()(row, row);
+	return m_nav.variance(row);
 }
 
 Vector3d CNavigator::leverVariance(const Vector3d& lever) const

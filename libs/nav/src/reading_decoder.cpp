@@ -35,15 +35,10 @@ void CReadingDecoder::push(double stamp, int sensor, const WHAT& what)
 }
 
 template <class SPEC>
-int CReadingDecoder::entryOf(const CObservation& o, const SPEC* TNavigatorSetup::TSensor::*kind) const
+int CReadingDecoder::entryOf(const CObservation& o, const std::map<std::string, SPEC>& entries) const
 {
-	const int i = m_setup->indexOf(o.sensorLabel);
-	if (i < 0 || !(m_setup->sensor[static_cast<size_t>(i)].*kind))
-		throw CError(
-			"sensor '" + o.sensorLabel + "'",
-			std::string("has no entry of kind ") + SPEC::kind + " in the sensors.ini",
-			"add a section [" + o.sensorLabel + "], or give --assume-defaults");
-	return i;
+	specOf(entries, o.sensorLabel);
+	return m_setup->indexOf(o.sensorLabel);
 }
 
 void CReadingDecoder::decodeImu(const CObservationIMU& imu)
@@ -103,7 +98,7 @@ Eigen::Vector4d beamsOf(const CObservationDVL& dvl, double max_speed)
 
 void CReadingDecoder::decodeDvl(const CObservationDVL& dvl)
 {
-	const int i = entryOf(dvl, &TNavigatorSetup::TSensor::dvl);
+	const int i = entryOf(dvl, m_setup->sensors.dvl);
 	const TEkfOptions& o = m_setup->options;
 	TDvlReading r;
 	r.velocity = {dvl.velocity.x, dvl.velocity.y, dvl.velocity.z};
@@ -120,7 +115,7 @@ void CReadingDecoder::decodeDvl(const CObservationDVL& dvl)
 
 void CReadingDecoder::decodePressure(const CObservationPressure& pressure)
 {
-	const int i = entryOf(pressure, &TNavigatorSetup::TSensor::pressure);
+	const int i = entryOf(pressure, m_setup->sensors.pressure);
 	const double depth = m_setup->sensor[static_cast<size_t>(i)].pressure->depth(pressure.pressure);
 	if (std::isfinite(depth))
 		push(stampOf(pressure), i, TDepthReading{depth});
@@ -143,7 +138,7 @@ std::optional<TGeodetic> fixOf(const CObservationGPS& gps)
 
 void CReadingDecoder::decodeGps(const CObservationGPS& gps)
 {
-	const int i = entryOf(gps, &TNavigatorSetup::TSensor::gps);
+	const int i = entryOf(gps, m_setup->sensors.gps);
 	if (const auto fix = fixOf(gps))
 		push(stampOf(gps), i, TFixReading{nedFromGeodetic(*fix, m_setup->datum).head<2>()});
 	else

@@ -69,6 +69,7 @@ class CNavigationEKF : public mrpt::bayes::CKalmanFilterCapable<kNavigationSize,
 
 	const TNavigationState& state() const { return m_nominal; }
 	MatrixNav covariance() const;
+	double variance(int row) const { return m_pkk(row, row); }
 	/** T_odom_nav and T_clone_nav with covariance (path_length is not kept here). */
 	TPoseEstimate pose() const;
 	TPoseEstimate sinceClone() const;

@@ -40,9 +40,9 @@ class CReadingDecoder
 	void decodeDvl(const CObservationDVL& dvl);
 	void decodePressure(const CObservationPressure& pressure);
 	void decodeGps(const mrpt::obs::CObservationGPS& gps);
-	/** Index of the label where the entry of that kind is there; else CError. */
+	/** Index of the label; CError where `entries` has none. */
 	template <class SPEC>
-	int entryOf(const mrpt::obs::CObservation& o, const SPEC* TNavigatorSetup::TSensor::*kind) const;
+	int entryOf(const mrpt::obs::CObservation& o, const std::map<std::string, SPEC>& entries) const;
 	template <class WHAT>
 	void push(double stamp, int sensor, const WHAT& what);
 
