@@ -16,22 +16,8 @@ void CBlockMatrix::setPattern(int block_count, const std::vector<TPosition>& bel
 			m_block_rows.push_back((*next)[1]);
 		m_first[c + 1] = int(m_block_rows.size());
 	}
-	setScalarPattern();
-	m_values.assign(m_rows.size(), 0.0);
-}
-
-void CBlockMatrix::setScalarPattern()
-{
-	m_column_starts.assign(1, 0);
-	m_rows.clear();
-	m_rows.reserve(36 * m_block_rows.size());
-	for (int column = 0; column < dimension(); column++) {
-		const int c = column / 6;
-		for (int k = m_first[c]; k < m_first[c + 1]; k++)
-			for (int i = 0; i < 6; i++)
-				m_rows.push_back(6 * m_block_rows[k] + i);
-		m_column_starts.push_back(int(m_rows.size()));
-	}
+	m_values.resize(36 * m_block_rows.size());
+	setZero();
 }
 
 CBlockMatrix::TSlot CBlockMatrix::diagonalSlot(int column) const
@@ -50,29 +36,40 @@ CBlockMatrix::TSlot CBlockMatrix::slot(int row, int column) const
 
 void CBlockMatrix::setZero()
 {
-	std::fill(m_values.begin(), m_values.end(), 0.0);
+	std::fill_n(m_values.data(), m_values.size(), 0.0);
 }
 
 Eigen::VectorXd CBlockMatrix::diagonal() const
 {
 	Eigen::VectorXd d(dimension());
-	for (int i = 0; i < dimension(); i++)
-		d[i] = m_values[m_column_starts[i] + i % 6];
+	for (int c = 0; c < m_block_count; c++) {
+		const auto [offset, stride] = diagonalSlot(c);
+		for (int k = 0; k < 6; k++)
+			d[6 * c + k] = m_values.data()[offset + size_t(k * (stride + 1))];
+	}
 	return d;
 }
 
 void CBlockMatrix::setDiagonal(const Eigen::VectorXd& diagonal)
 {
-	for (int i = 0; i < dimension(); i++)
-		m_values[m_column_starts[i] + i % 6] = diagonal[i];
+	for (int c = 0; c < m_block_count; c++) {
+		const auto [offset, stride] = diagonalSlot(c);
+		for (int k = 0; k < 6; k++)
+			m_values.data()[offset + size_t(k * (stride + 1))] = diagonal[6 * c + k];
+	}
 }
 
 Eigen::MatrixXd CBlockMatrix::toDense() const
 {
 	Eigen::MatrixXd D = Eigen::MatrixXd::Zero(dimension(), dimension());
-	for (int j = 0; j < dimension(); j++)
-		for (int p = m_column_starts[j]; p < m_column_starts[j + 1]; p++)
-			D(m_rows[p], j) = D(j, m_rows[p]) = m_values[p];
+	for (int c = 0; c < m_block_count; c++)
+		for (const int r : rowsOfColumn(c)) {
+			const TSlot at = slot(r, c);
+			const Eigen::Map<const Matrix6d, 0, Eigen::OuterStride<>> B(
+				m_values.data() + at.offset, Eigen::OuterStride<>(at.stride));
+			D.block<6, 6>(6 * r, 6 * c) = B;
+			D.block<6, 6>(6 * c, 6 * r) = B.transpose();
+		}
 	return D;
 }
 }  // namespace posidonia

@@ -26,7 +26,7 @@ class CDisjointSets
 };
 }  // namespace
 
-void CNormalEquations::followStructure(const CPoseGraph& graph, CSparseCholesky& cholesky)
+void CNormalEquations::followStructure(const CPoseGraph& graph, CMultifrontalCholesky& cholesky)
 {
 	if (sameStructure(graph)) return;
 	requireConnected(graph);
@@ -100,11 +100,11 @@ std::vector<CBlockMatrix::TPosition> CNormalEquations::coupledPairs(const std::v
 }
 
 void CNormalEquations::orderAndAnalyze(
-	int free_count, const std::vector<CBlockMatrix::TPosition>& pairs, CSparseCholesky& cholesky)
+	int free_count, const std::vector<CBlockMatrix::TPosition>& pairs, CMultifrontalCholesky& cholesky)
 {
 	// A second edge between joined nodes, or another numbering of the same pattern, needs no new analysis.
 	if (free_count == m_ordered_count && pairs == m_ordered_pairs) return;
-	m_order = cholesky.eliminationOrder(free_count, pairs);
+	m_order = cholesky.order(free_count, pairs);
 	std::vector<int> column(free_count);
 	for (int k = 0; k < free_count; k++)
 		column[m_order[k]] = k;

@@ -90,11 +90,11 @@ void CSparseOptimizer::linearize(TRun& run)
 bool CSparseOptimizer::solveDamped(TRun& run)
 {
 	m_system.H().setDiagonal((1 + run.mu) * m_diagonal);
-	if (!m_cholesky.factorize(m_system.H())) {
+	if (!m_cholesky.factorize(m_system.H(), m_system.b())) {
 		run.result.failed_node = m_system.nodeOf(m_cholesky.failedBlock());
 		return false;
 	}
-	m_step = m_cholesky.solve(m_system.b());
+	m_step = m_cholesky.solve();
 	run.result.last_step = m_step.lpNorm<Eigen::Infinity>();
 	// Madsen, Nielsen, Tingleff 2004, eq. (2.18)
 	run.result.predicted_decrease = m_step.dot(run.mu * m_diagonal.cwiseProduct(m_step) + m_system.b());
@@ -169,7 +169,7 @@ CMarginals CSparseOptimizer::marginals(const CPoseGraph& graph)
 {
 	m_system.followStructure(graph, m_cholesky);
 	m_system.linearize(graph);
-	if (m_system.freeNodeCount() > 0 && !m_cholesky.factorize(m_system.H()))
+	if (m_system.freeNodeCount() > 0 && !m_cholesky.factorize(m_system.H(), m_system.b()))
 		throw CError(
 			"node " + std::to_string(m_system.nodeOf(m_cholesky.failedBlock())),
 			"the information matrix is singular to working precision there",

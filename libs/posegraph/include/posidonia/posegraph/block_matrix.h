@@ -1,6 +1,7 @@
 #pragma once
 
 #include <posidonia/geometry/se3.h>
+#include <posidonia/posegraph/large_buffer.h>
 
 #include <array>
 #include <vector>
@@ -9,8 +10,7 @@ namespace posidonia
 {
 /** Lower triangle of a symmetric sparse matrix of 6x6 blocks, block column by block column. A block column
  * with m blocks is one dense column-major 6m x 6 array, its diagonal block on top; so a block is a strided
- * map, and the whole is at the same time a scalar compressed-column matrix (the diagonal blocks are stored in
- * full). */
+ * map. The diagonal blocks are stored in full. */
 class CBlockMatrix
 {
    public:
@@ -23,6 +23,14 @@ class CBlockMatrix
 	{
 		size_t offset{0};
 		int stride{0};
+	};
+
+	/** Block rows, for range-based loops. */
+	struct TRows
+	{
+		const int *first, *last;
+		const int* begin() const { return first; }
+		const int* end() const { return last; }
 	};
 
 	/** @param below blocks below the diagonal, sorted and each once; every diagonal block is there too */
@@ -38,25 +46,28 @@ class CBlockMatrix
 		return TBlock(m_values.data() + slot.offset, Eigen::OuterStride<>(slot.stride));
 	}
 
+	/** Where the blocks of a column begin in the order of all blocks, column by column. */
+	int firstBlock(int column) const { return m_first[column]; }
+	/** Block rows of a column's blocks, ascending, the diagonal's first. */
+	TRows rowsOfColumn(int column) const
+	{
+		return {m_block_rows.data() + m_first[column], m_block_rows.data() + m_first[column + 1]};
+	}
+
 	void setZero();
 	Eigen::VectorXd diagonal() const;
 	void setDiagonal(const Eigen::VectorXd& diagonal);
 
-	/** The scalar matrix: column starts (6n + 1), row of each value, values. */
-	const std::vector<int>& columnStarts() const { return m_column_starts; }
-	const std::vector<int>& rows() const { return m_rows; }
-	const std::vector<double>& values() const { return m_values; }
+	/** All values, block column by block column. */
+	const double* values() const { return m_values.data(); }
 
 	/** All of it, dense and symmetric: for checks of small systems. */
 	Eigen::MatrixXd toDense() const;
 
    private:
-	void setScalarPattern();
-
 	int m_block_count{0};
 	std::vector<int> m_first;		///< index of each block column's first block (its diagonal); n + 1
 	std::vector<int> m_block_rows;	///< block row of each block
-	std::vector<int> m_column_starts, m_rows;
-	std::vector<double> m_values;
+	CLargeBuffer m_values;
 };
 }  // namespace posidonia

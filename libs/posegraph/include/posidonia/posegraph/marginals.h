@@ -10,28 +10,40 @@ namespace posidonia
 class CMarginals
 {
    public:
-	CMarginals(const CPoseGraph& graph, const CNormalEquations& system, CSparseCholesky& cholesky);
+	CMarginals(
+		const CPoseGraph& graph, const CNormalEquations& system, const CMultifrontalCholesky& cholesky);
 
-	/** 6x6 covariance of (rho, phi) of T_map_node. */
+	/** 6x6 covariance of (rho, phi) of T_map_node: from the cliques on the way to the root alone. */
 	Matrix6d covarianceOf(int node) const;
+
+	/** The same of every node at once, by Takahashi's recursion down the forest: some two factorisations. */
+	std::vector<Matrix6d> allCovariances() const;
 
 	/** 6x6 covariance of (rho, phi) of T_i_j = inverse(T_map_i) T_map_j, from the joint marginal of both. */
 	Matrix6d relativeCovariance(int i, int j) const;
 
-	/** relativeCovariance(i, j) for one j against many i: j's columns are solved once, the others together.
-	 */
+	/** relativeCovariance(i, j) for one j against many i. */
 	std::vector<Matrix6d> relativeCovariances(const std::vector<int>& is, int j) const;
 
 	/** Covariance of several nodes together, 6k x 6k, in the order given. */
 	Eigen::MatrixXd jointCovariance(const std::vector<int>& nodes) const;
 
    private:
-	Eigen::MatrixXd halfColumns(const int* nodes, size_t count) const;
+	using TColumns = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+	/** L^-1 times a node's unit columns: what is not zero of it, clique by clique towards the root. */
+	struct THalfColumns
+	{
+		std::vector<int> cliques;
+		std::vector<TColumns> values;  ///< 6 pivots x 6 each
+	};
+
+	THalfColumns halfColumns(int node) const;
+	static Matrix6d product(const THalfColumns& a, const THalfColumns& b);
 	void requireUsable(int node) const;
 
 	std::vector<Eigen::Isometry3d> m_poses;
 	const CNormalEquations* m_system;
-	CSparseCholesky* m_cholesky;
+	const CMultifrontalCholesky* m_cholesky;
 	size_t m_factorization;	 ///< which of the solver's factorisations this speaks of
 };
 }  // namespace posidonia

@@ -3,7 +3,7 @@
 #include <posidonia/posegraph/block_matrix.h>
 #include <posidonia/posegraph/chi2.h>
 #include <posidonia/posegraph/edge_residual.h>
-#include <posidonia/posegraph/sparse_cholesky.h>
+#include <posidonia/posegraph/multifrontal_cholesky.h>
 
 namespace posidonia
 {
@@ -15,7 +15,7 @@ class CNormalEquations
    public:
 	/** Follows the graph's structure; when its sparsity pattern changed, orders it and has `cholesky` analyse
 	 * it. Throws CError naming a node that no chain of edges joins to a fixed node. */
-	void followStructure(const CPoseGraph& graph, CSparseCholesky& cholesky);
+	void followStructure(const CPoseGraph& graph, CMultifrontalCholesky& cholesky);
 
 	/** Sums H and b at the graph's poses, with the weights of the robust losses there. Returns the costs. */
 	TChi2 linearize(const CPoseGraph& graph);
@@ -42,7 +42,7 @@ class CNormalEquations
 	void requireConnected(const CPoseGraph& graph) const;
 	std::vector<CBlockMatrix::TPosition> coupledPairs(const std::vector<int>& index) const;
 	void orderAndAnalyze(
-		int free_count, const std::vector<CBlockMatrix::TPosition>& pairs, CSparseCholesky& cholesky);
+		int free_count, const std::vector<CBlockMatrix::TPosition>& pairs, CMultifrontalCholesky& cholesky);
 	void findSlots();
 	void addEdge(const TEdgeSlots& slots, const TEdgeNormal& normal, double weight);
 

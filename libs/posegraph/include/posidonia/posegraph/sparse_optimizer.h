@@ -11,7 +11,7 @@ struct TOptimizerOptions
 {
 	std::string method{"levenberg-marquardt"};
 	int max_iterations{100};
-	double min_relative_decrease{1e-9};
+	double min_relative_decrease{1e-7};
 	double min_step{1e-9};
 	double min_gradient{1e-9};
 	double initial_damping{1e-9};
@@ -85,7 +85,7 @@ class CSparseOptimizer
 
 	size_t symbolicAnalyses() const { return m_cholesky.analyses(); }
 	const CNormalEquations& system() const { return m_system; }
-	const CSparseCholesky& cholesky() const { return m_cholesky; }
+	const CMultifrontalCholesky& cholesky() const { return m_cholesky; }
 
    private:
 	/** One run's state. */
@@ -110,7 +110,7 @@ class CSparseOptimizer
 
 	TOptimizerOptions m_options;
 	bool m_gauss_newton;
-	CSparseCholesky m_cholesky;
+	CMultifrontalCholesky m_cholesky;
 	CNormalEquations m_system;
 	Eigen::VectorXd m_diagonal, m_step;
 	std::vector<Eigen::Isometry3d> m_trial;
