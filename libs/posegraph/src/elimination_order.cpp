@@ -1,4 +1,5 @@
 #include <amd.h>
+#include <camd.h>
 #include <posidonia/base/error.h>
 #include <posidonia/posegraph/elimination_order.h>
 
@@ -10,22 +11,44 @@ void check(int status)
 {
 	if (status >= AMD_OK) return;
 	throw CError(
-		"elimination order", "AMD failed with status " + std::to_string(status),
+		"elimination order", "AMD or CAMD failed with status " + std::to_string(status),
 		status == AMD_OUT_OF_MEMORY ? "the graph needs more memory" : "report this");
 }
+/** The pattern of the pairs, column by column. */
+struct TPattern
+{
+	std::vector<int> starts, rows;
+
+	TPattern(int n, const std::vector<std::array<int, 2>>& pairs) : starts(size_t(n) + 1, 0), rows(pairs.size())
+	{
+		for (const auto& pair : pairs)
+			starts[size_t(pair[0]) + 1]++;
+		for (int c = 0; c < n; c++)
+			starts[c + 1] += starts[c];
+		std::vector<int> next(starts.begin(), starts.end() - 1);
+		for (const auto& pair : pairs)
+			rows[next[pair[0]]++] = pair[1];
+	}
+};
 }  // namespace
 
 std::vector<int> minimumDegreeOrder(int n, const std::vector<std::array<int, 2>>& pairs)
 {
-	std::vector<int> starts(size_t(n) + 1, 0), rows, order(n);
-	rows.reserve(pairs.size());
-	auto next = pairs.begin();
-	for (int c = 0; c < n; c++) {
-		for (; next != pairs.end() && (*next)[0] == c; ++next)
-			rows.push_back((*next)[1]);
-		starts[c + 1] = int(rows.size());
-	}
-	if (n > 0) check(amd_order(n, starts.data(), rows.data(), order.data(), nullptr, nullptr));
+	const TPattern pattern(n, pairs);
+	std::vector<int> order(n);
+	if (n > 0) check(amd_order(n, pattern.starts.data(), pattern.rows.data(), order.data(), nullptr, nullptr));
+	return order;
+}
+
+std::vector<int> constrainedMinimumDegreeOrder(
+	int n, const std::vector<std::array<int, 2>>& pairs, const std::vector<int>& groups)
+{
+	static_assert(AMD_OUT_OF_MEMORY == CAMD_OUT_OF_MEMORY && AMD_OK == CAMD_OK);
+	const TPattern pattern(n, pairs);
+	std::vector<int> order(n);
+	if (n > 0)
+		check(camd_order(
+			n, pattern.starts.data(), pattern.rows.data(), order.data(), nullptr, nullptr, groups.data()));
 	return order;
 }
 }  // namespace posidonia

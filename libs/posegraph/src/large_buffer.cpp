@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <new>
+#include <utility>
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -20,8 +21,17 @@ size_t rounded(size_t bytes, size_t unit)
 
 CLargeBuffer::CLargeBuffer() = default;
 CLargeBuffer::~CLargeBuffer() = default;
-CLargeBuffer::CLargeBuffer(CLargeBuffer&&) noexcept = default;
-CLargeBuffer& CLargeBuffer::operator=(CLargeBuffer&&) noexcept = default;
+CLargeBuffer::CLargeBuffer(CLargeBuffer&& other) noexcept
+{
+	*this = std::move(other);
+}
+CLargeBuffer& CLargeBuffer::operator=(CLargeBuffer&& other) noexcept
+{
+	m_data = std::move(other.m_data);
+	m_size = std::exchange(other.m_size, 0);
+	m_capacity = std::exchange(other.m_capacity, 0);
+	return *this;
+}
 
 void CLargeBuffer::TFree::operator()(double* p) const
 {

@@ -2,19 +2,12 @@
 #include <posidonia/posegraph/marginals.h>
 #include <posidonia/posegraph/partial_inverse.h>
 
+#include <algorithm>
+
 #include "simd/front_kernels.h"
 
 namespace posidonia
 {
-CMarginals::CMarginals(
-	const CPoseGraph& graph, const CNormalEquations& system, const CMultifrontalCholesky& cholesky)
-	: m_poses(graph.poses()),
-	  m_system(&system),
-	  m_cholesky(&cholesky),
-	  m_factorization(cholesky.factorizations())
-{
-}
-
 Matrix6d CMarginals::covarianceOf(int node) const
 {
 	const THalfColumns Y = halfColumns(node);
@@ -23,12 +16,10 @@ Matrix6d CMarginals::covarianceOf(int node) const
 
 std::vector<Matrix6d> CMarginals::allCovariances() const
 {
-	std::vector<Matrix6d> out(m_poses.size(), Matrix6d::Zero());
+	std::vector<Matrix6d> out(m_poses->size(), Matrix6d::Zero());
 	if (out.empty()) return out;
 	requireUsable(0);
-	const auto blocks = inverseDiagonalBlocks(*m_cholesky);
-	for (size_t column = 0; column < blocks.size(); column++)
-		out[m_system->nodeOf(int(column))] = blocks[column];
+	inverseDiagonalBlocks(*m_factor, out);
 	return out;
 }
 
@@ -46,7 +37,7 @@ std::vector<Matrix6d> CMarginals::relativeCovariances(const std::vector<int>& is
 	for (const int i : is) {
 		// d_ij = d_j - Ad(T_j_i) d_i
 		const THalfColumns Y_i = halfColumns(i);
-		const Matrix6d Ad = adjoint(m_poses[j].inverse() * m_poses[i]);
+		const Matrix6d Ad = adjoint((*m_poses)[j].inverse() * (*m_poses)[i]);
 		const Matrix6d cross = Ad * product(Y_i, Y_j);
 		const Matrix6d S = S_jj + Ad * product(Y_i, Y_i) * Ad.transpose() - cross - cross.transpose();
 		out.push_back(0.5 * (S + S.transpose()));
@@ -74,21 +65,18 @@ CMarginals::THalfColumns CMarginals::halfColumns(int node) const
 {
 	requireUsable(node);
 	THalfColumns out;
-	const int column = m_system->columnOf(node);
-	if (column < 0) return out;
-	const auto& forest = m_cholesky->forest();
-	const int width = m_cholesky->kernels().width;
+	const int width = frontKernels().width;
 	TColumns r, next;
-	for (int c = forest.clique_of[column]; c >= 0; c = forest.cliques[c].parent) {
-		const auto& clique = forest.cliques[c];
-		const int m = clique.size(), p = clique.pivots;
+	for (int c = m_factor->cliqueOf(node); c >= 0;) {
+		const auto clique = m_factor->clique(c);
+		const int m = clique.blocks, p = clique.pivots;
 		if (out.cliques.empty()) {
 			r.setZero(6 * m, 6);
-			r.middleRows<6>(6 * (column - clique.first)).setIdentity();
+			r.middleRows<6>(6 * (std::find(clique.nodes, clique.nodes + p, node) - clique.nodes)).setIdentity();
 		}
 		for (int J = 0; J < p; J++) {
 			const Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>> L(
-				m_cholesky->panel(c) + blockColumnOffset(m, J, width), 6 * (m - J), 6,
+				clique.panel + blockColumnOffset(m, J, width), 6 * (m - J), 6,
 				Eigen::OuterStride<>(paddedRows(m, J, width)));
 			const Matrix6d y = Matrix6d(L.topRows<6>())
 								   .triangularView<Eigen::Lower>()
@@ -98,11 +86,11 @@ CMarginals::THalfColumns CMarginals::halfColumns(int node) const
 		}
 		out.cliques.push_back(c);
 		out.values.push_back(r.topRows(6 * p));
-		if (clique.parent < 0) break;
-		const int* rows = m_cholesky->rowsInParent(c);
-		next.setZero(6 * forest.cliques[clique.parent].size(), 6);
+		c = clique.parent;
+		if (c < 0) break;
+		next.setZero(6 * m_factor->clique(c).blocks, 6);
 		for (int b = 0; b < m - p; b++)
-			next.middleRows<6>(6 * rows[b]) = r.middleRows<6>(6 * (p + b));
+			next.middleRows<6>(6 * clique.rows_in_parent[b]) = r.middleRows<6>(6 * (p + b));
 		r.swap(next);
 	}
 	return out;
@@ -123,11 +111,11 @@ Matrix6d CMarginals::product(const THalfColumns& a, const THalfColumns& b)
 
 void CMarginals::requireUsable(int node) const
 {
-	if (m_cholesky->factorizations() != m_factorization)
+	if (m_factor->version() != m_version)
 		throw CError("marginals", "outdated, the optimiser was used since", "ask the optimiser again");
-	if (node < 0 || node >= int(m_poses.size()))
+	if (node < 0 || node >= int(m_poses->size()))
 		throw CError(
 			"node " + std::to_string(node), "no such node",
-			"the graph has " + std::to_string(m_poses.size()) + " nodes");
+			"the graph has " + std::to_string(m_poses->size()) + " nodes");
 }
 }  // namespace posidonia

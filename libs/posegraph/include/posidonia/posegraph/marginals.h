@@ -1,6 +1,7 @@
 #pragma once
 
-#include <posidonia/posegraph/normal_equations.h>
+#include <posidonia/geometry/se3.h>
+#include <posidonia/posegraph/clique_factor.h>
 
 namespace posidonia
 {
@@ -10,8 +11,11 @@ namespace posidonia
 class CMarginals
 {
    public:
-	CMarginals(
-		const CPoseGraph& graph, const CNormalEquations& system, const CMultifrontalCholesky& cholesky);
+	/** @param poses T_map_node where L was made; both must outlive this */
+	CMarginals(const std::vector<Eigen::Isometry3d>& poses, const CCliqueFactor& factor)
+		: m_poses(&poses), m_factor(&factor), m_version(factor.version())
+	{
+	}
 
 	/** 6x6 covariance of (rho, phi) of T_map_node: from the cliques on the way to the root alone. */
 	Matrix6d covarianceOf(int node) const;
@@ -41,9 +45,8 @@ class CMarginals
 	static Matrix6d product(const THalfColumns& a, const THalfColumns& b);
 	void requireUsable(int node) const;
 
-	std::vector<Eigen::Isometry3d> m_poses;
-	const CNormalEquations* m_system;
-	const CMultifrontalCholesky* m_cholesky;
-	size_t m_factorization;	 ///< which of the solver's factorisations this speaks of
+	const std::vector<Eigen::Isometry3d>* m_poses;
+	const CCliqueFactor* m_factor;
+	size_t m_version;
 };
 }  // namespace posidonia
