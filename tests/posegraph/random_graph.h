@@ -64,7 +64,7 @@ inline void perturb(CPoseGraph& graph, unsigned seed, double sigma)
 {
 	std::mt19937 rng(seed);
 	for (int i = 0; i < int(graph.nodeCount()); i++)
-		if (!graph.isFixed(i))
+		if (!graph.isFixed(i) && graph.nodeKind(i) == ENodeKind::Pose)
 			graph.setPose(i, retract(graph.pose(i), gaussian6(rng, sigma * Vector6d::Ones())));
 }
 

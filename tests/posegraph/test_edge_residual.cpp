@@ -15,6 +15,7 @@ struct TCase
 	TPoseEdge edge;
 	Eigen::Isometry3d T_map_from, T_map_to;
 	double residual_angle;
+	Vector6d error{Vector6d::Zero()};  ///< value of the error variable
 };
 
 /** Edges whose residual rotation is 0 to 3.1 rad. */
@@ -35,6 +36,11 @@ std::vector<TCase> cases()
 			c.edge.T_from_to =
 				(c.T_map_from.inverse() * c.T_map_to) * retract(Eigen::Isometry3d::Identity(), d);
 			c.edge.information = randomCovariance(rng, 3);
+			out.push_back(c);
+			c.edge.error_variable = 2;
+			c.edge.sensitivity = randomCovariance(rng, 1);
+			c.error << randomVector(rng, 0.2), randomVector(rng, 0.2);
+			c.edge.T_from_to = retract(c.edge.T_from_to, -c.edge.sensitivity * c.error);
 			out.push_back(c);
 		}
 	return out;
@@ -71,44 +77,59 @@ TEST(EdgeResidual, IsThePerturbationOfTheMeasurementToFirstOrder)
 TEST(EdgeResidual, JacobiansEqualNumericalDerivatives)
 {
 	for (const TCase& c : cases()) {
-		const auto J = edgeJacobians(c.edge, c.T_map_from, c.T_map_to);
+		const auto J = edgeJacobians(c.edge, c.T_map_from, c.T_map_to, c.error);
 		const auto from = [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
-			return edgeResidual(c.edge, retract(c.T_map_from, d), c.T_map_to);
+			return edgeResidual(c.edge, retract(c.T_map_from, d), c.T_map_to, c.error);
 		};
 		const auto to = [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
-			return edgeResidual(c.edge, c.T_map_from, retract(c.T_map_to, d));
+			return edgeResidual(c.edge, c.T_map_from, retract(c.T_map_to, d), c.error);
 		};
-		EXPECT_LT((J.J_from - numericalDerivative(from, 6)).norm(), 1e-7) << "angle=" << c.residual_angle;
-		EXPECT_LT((J.J_to - numericalDerivative(to, 6)).norm(), 1e-7) << "angle=" << c.residual_angle;
+		const auto error = [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
+			return edgeResidual(c.edge, c.T_map_from, c.T_map_to, c.error + d);
+		};
+		const auto where = ::testing::Message()
+						   << "angle=" << c.residual_angle << " error variable=" << c.edge.error_variable;
+		EXPECT_LT((J.J_from - numericalDerivative(from, 6)).norm(), 1e-7) << where;
+		EXPECT_LT((J.J_to - numericalDerivative(to, 6)).norm(), 1e-7) << where;
+		EXPECT_LT((J.J_error - numericalDerivative(error, 6)).norm(), 1e-7) << where;
 	}
 }
 
 TEST(EdgeResidual, NormalEquationsAreTheJacobiansSquared)
 {
 	for (const TCase& c : cases()) {
-		const auto J = edgeJacobians(c.edge, c.T_map_from, c.T_map_to);
-		const auto N = edgeNormal(c.edge, c.T_map_from, c.T_map_to);
+		const TNodeStates states{
+			{c.T_map_from, c.T_map_to, Eigen::Isometry3d::Identity()},
+			{Vector6d::Zero(), Vector6d::Zero(), c.error}};
+		const auto J = edgeJacobians(c.edge, c.T_map_from, c.T_map_to, c.error);
+		const auto N = linearizeEdge(c.edge, states);
 		const Matrix6d& Omega = c.edge.information;
-		const double scale = N.H_from_from.norm() + 1;
+		const Matrix6d* jacobians[] = {&J.J_from, &J.J_to, &J.J_error};
+		EXPECT_EQ(N.count, c.edge.error_variable < 0 ? 2 : 3);
 		EXPECT_NEAR(N.s, J.e.dot(Omega * J.e), 1e-12 * (1 + N.s));
-		EXPECT_NEAR(N.s, edgeMahalanobis2(c.edge, c.T_map_from, c.T_map_to), 1e-12 * (1 + N.s));
-		EXPECT_LT((N.H_from_from - J.J_from.transpose() * Omega * J.J_from).norm(), 1e-12 * scale);
-		EXPECT_LT((N.H_from_to - J.J_from.transpose() * Omega * J.J_to).norm(), 1e-12 * scale);
-		EXPECT_LT((N.H_to_to - J.J_to.transpose() * Omega * J.J_to).norm(), 1e-12 * scale);
-		EXPECT_LT((N.g_from - J.J_from.transpose() * Omega * J.e).norm(), 1e-12 * scale * (1 + J.e.norm()));
-		EXPECT_LT((N.g_to - J.J_to.transpose() * Omega * J.e).norm(), 1e-12 * scale * (1 + J.e.norm()));
+		EXPECT_NEAR(N.s, edgeMahalanobis2(c.edge, states), 1e-12 * (1 + N.s));
+		const double scale = N.H[0].norm() + 1;
+		for (int a = 0; a < N.count; a++) {
+			const Vector6d g = jacobians[a]->transpose() * Omega * J.e;
+			EXPECT_LT((N.g[a] - g).norm(), 1e-12 * scale * (1 + J.e.norm())) << "a=" << a;
+			for (int b = 0; b <= a; b++) {
+				const Matrix6d H = jacobians[a]->transpose() * Omega * *jacobians[b];
+				EXPECT_LT((N.H[TFactorNormal::lower(a, b)] - H).norm(), 1e-12 * scale)
+					<< "a=" << a << " b=" << b;
+			}
+		}
 	}
 }
 
 TEST(RobustLoss, WeightIsTheDerivativeOfTheCost)
 {
-	for (const auto kind : {ERobustLoss::None, ERobustLoss::Huber, ERobustLoss::Cauchy})
+	for (const auto kind : {ERobustLoss::None, ERobustLoss::Huber, ERobustLoss::Cauchy, ERobustLoss::Dcs})
 		for (const double s : {0.01, 1.0, 3.9, 4.1, 50.0, 1e4}) {
-			const TRobustLoss loss{kind, 2.0};
+			const TRobustLoss loss{kind, 2.0, 0.7};
 			const double h = 1e-5 * s;
 			const double slope = (robustCost(loss, s + h) - robustCost(loss, s - h)) / (2 * h);
 			EXPECT_NEAR(robustWeight(loss, s), slope, 1e-7) << "kind=" << int(kind) << " s=" << s;
 			EXPECT_GT(robustWeight(loss, s), 0);
-			EXPECT_LE(robustCost(loss, s), s);
+			EXPECT_LE(robustCost(loss, s), 0.7 * s * (1 + 1e-12));
 		}
 }

@@ -7,7 +7,7 @@
 
 namespace posidonia
 {
-CBayesTree::CBayesTree() : m_kernels(frontKernels()) {}
+CBayesTree::CBayesTree() : m_kernels(&frontKernels()) {}
 
 void CBayesTree::clear()
 {

@@ -1,22 +1,25 @@
 #include <posidonia/posegraph/chi2.h>
-#include <posidonia/posegraph/edge_residual.h>
+#include <posidonia/posegraph/factor_normal.h>
 
 namespace posidonia
 {
-TChi2 chi2At(const CPoseGraph& graph, const std::vector<Eigen::Isometry3d>& poses)
+TChi2 chi2At(const CPoseGraph& graph, const TNodeStates& states)
 {
 	TChi2 sum;
-	for (const TPoseEdge& edge : graph.edges()) {
-		const double s = edgeMahalanobis2(edge, poses[edge.from], poses[edge.to]);
+	const auto add = [&sum](const TRobustLoss& loss, double s) {
 		sum.plain += s;
-		sum.robust += robustCost(edge.loss, s);
-	}
+		sum.robust += robustCost(loss, s);
+	};
+	for (const TPoseEdge& edge : graph.edges())
+		add(edge.loss, edgeMahalanobis2(edge, states));
+	for (const TPosePrior& prior : graph.priors())
+		add(prior.loss, priorMahalanobis2(prior, states));
 	return sum;
 }
 
 double chi2(const CPoseGraph& graph)
 {
-	return chi2At(graph, graph.poses()).plain;
+	return chi2At(graph, graph.states()).plain;
 }
 
 std::vector<double> edgesMahalanobis2(const CPoseGraph& graph)
@@ -24,7 +27,16 @@ std::vector<double> edgesMahalanobis2(const CPoseGraph& graph)
 	std::vector<double> out;
 	out.reserve(graph.edgeCount());
 	for (const TPoseEdge& edge : graph.edges())
-		out.push_back(edgeMahalanobis2(edge, graph.poses()[edge.from], graph.poses()[edge.to]));
+		out.push_back(edgeMahalanobis2(edge, graph.states()));
+	return out;
+}
+
+std::vector<double> priorsMahalanobis2(const CPoseGraph& graph)
+{
+	std::vector<double> out;
+	out.reserve(graph.priorCount());
+	for (const TPosePrior& prior : graph.priors())
+		out.push_back(priorMahalanobis2(prior, graph.states()));
 	return out;
 }
 }  // namespace posidonia

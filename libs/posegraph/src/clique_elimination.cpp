@@ -75,7 +75,7 @@ TFront frontOf(double* panel, double* rest, int m, int pivots, int width)
 /** The node that fails, -1 when all is well. */
 int CBayesTree::eliminateClique(TClique& clique, const TNormalOf& normal_of)
 {
-	const int m = clique.size(), p = int(clique.pivots.size()), width = m_kernels.width;
+	const int m = clique.size(), p = int(clique.pivots.size()), width = m_kernels->width;
 	for (int k = 0; k < m; k++)
 		m_local[k < p ? clique.pivots[k] : clique.separator[k - p]] = k;
 	mapChildRows(clique);
@@ -91,18 +91,18 @@ int CBayesTree::eliminateClique(TClique& clique, const TNormalOf& normal_of)
 	for (const int c : clique.children) {
 		const TClique& child = m_cliques[c];
 		if (child.rows_ascend)
-			m_kernels.addToPanel(child.rest.data(), child.left(), child.rows.data(), front.panel, m, p);
+			m_kernels->addToPanel(child.rest.data(), child.left(), child.rows.data(), front.panel, m, p);
 		else
 			addPermuted(child.rest.data(), child.left(), child.rows.data(), front, true);
 	}
-	const int failed = m_kernels.factorize(front.panel, m, p);
+	const int failed = m_kernels->factorize(front.panel, m, p);
 	if (failed >= 0) return clique.pivots[failed];
-	m_kernels.update(front.panel, m, p, front.rest);
+	m_kernels->update(front.panel, m, p, front.rest);
 	sumFactorsIntoRest(clique);
 	for (const int c : clique.children) {
 		const TClique& child = m_cliques[c];
 		if (child.rows_ascend)
-			m_kernels.addToRest(child.rest.data(), child.left(), child.rows.data(), front.rest, m, p);
+			m_kernels->addToRest(child.rest.data(), child.left(), child.rows.data(), front.rest, m, p);
 		else
 			addPermuted(child.rest.data(), child.left(), child.rows.data(), front, false);
 	}
@@ -124,7 +124,7 @@ void CBayesTree::mapChildRows(TClique& clique)
 void CBayesTree::sumFactorsIntoPanel(TClique& clique)
 {
 	const int p = int(clique.pivots.size());
-	const TFront front = frontOf(clique.panel.data(), nullptr, clique.size(), p, m_kernels.width);
+	const TFront front = frontOf(clique.panel.data(), nullptr, clique.size(), p, m_kernels->width);
 	for (const TFactorNormal& normal : m_normals)
 		for (int a = 0; a < normal.count; a++) {
 			const int row = m_local[normal.node[a]];
@@ -144,7 +144,7 @@ void CBayesTree::sumFactorsIntoPanel(TClique& clique)
 void CBayesTree::sumFactorsIntoRest(TClique& clique)
 {
 	const int p = int(clique.pivots.size());
-	const TFront front = frontOf(nullptr, clique.rest.data(), clique.size(), p, m_kernels.width);
+	const TFront front = frontOf(nullptr, clique.rest.data(), clique.size(), p, m_kernels->width);
 	for (const TFactorNormal& normal : m_normals)
 		for (int a = 0; a < normal.count; a++) {
 			const int row = m_local[normal.node[a]];
@@ -190,7 +190,7 @@ void CBayesTree::backSubstitute(const TClique& clique, const std::vector<Vector6
 	if (int(m_x.size()) < 6 * m) m_x.resize(6 * size_t(m));
 	for (int k = p; k < m; k++)
 		std::copy_n(d[clique.separator[k - p]].data(), 6, &m_x[6 * size_t(k)]);
-	m_kernels.backSubstitute(clique.panel.data(), m, p, m_x.data());
+	m_kernels->backSubstitute(clique.panel.data(), m, p, m_x.data());
 }
 
 void CBayesTree::take(const TClique& clique, std::vector<Vector6d>& d)

@@ -14,12 +14,12 @@ void check(int status)
 		"elimination order", "AMD or CAMD failed with status " + std::to_string(status),
 		status == AMD_OUT_OF_MEMORY ? "the graph needs more memory" : "report this");
 }
-/** The pattern of the pairs, column by column. */
+/** The pattern of the pairs, column by column (one row more: AMD refuses null pointers). */
 struct TPattern
 {
 	std::vector<int> starts, rows;
 
-	TPattern(int n, const std::vector<std::array<int, 2>>& pairs) : starts(size_t(n) + 1, 0), rows(pairs.size())
+	TPattern(int n, const std::vector<std::array<int, 2>>& pairs) : starts(size_t(n) + 1, 0), rows(pairs.size() + 1)
 	{
 		for (const auto& pair : pairs)
 			starts[size_t(pair[0]) + 1]++;

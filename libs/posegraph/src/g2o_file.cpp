@@ -234,10 +234,13 @@ void writePose(std::ostream& out, const Eigen::Isometry3d& T)
 		<< ' ' << q.y() << ' ' << q.z() << ' ' << q.w();
 }
 
-void writeEdge(std::ostream& out, const TPoseEdge& edge, const std::vector<long long>& ids)
+void writeEdge(
+	std::ostream& out, const TPoseEdge& edge, const TNodeStates& states, const std::vector<long long>& ids)
 {
 	out << "EDGE_SE3:QUAT " << ids[edge.from] << ' ' << ids[edge.to] << ' ';
-	writePose(out, edge.T_from_to);
+	writePose(
+		out, edge.error_variable < 0 ? edge.T_from_to
+									 : correctedMeasurement(edge, states.values[edge.error_variable]));
 	const Matrix6d information = informationToG2o(edge.information);
 	for (int i = 0; i < 6; i++)
 		for (int j = i; j < 6; j++)
@@ -271,13 +274,14 @@ void writeG2o(const std::string& path, const CPoseGraph& graph, const std::vecto
 		out.imbue(std::locale::classic());
 		out << std::setprecision(17);
 		for (int node = 0; node < int(graph.nodeCount()); node++) {
+			if (graph.nodeKind(node) != ENodeKind::Pose) continue;
 			out << "VERTEX_SE3:QUAT " << ids[node] << ' ';
 			writePose(out, graph.pose(node));
 			out << '\n';
 			if (graph.isFixed(node)) out << "FIX " << ids[node] << '\n';
 		}
 		for (const TPoseEdge& edge : graph.edges())
-			writeEdge(out, edge, ids);
+			writeEdge(out, edge, graph.states(), ids);
 	});
 }
 }  // namespace posidonia

@@ -1,101 +1,31 @@
-#include <posidonia/base/error.h>
 #include <posidonia/posegraph/normal_equations.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace posidonia
 {
-namespace
-{
-/** Sets joined by edges, with path halving. */
-class CDisjointSets
-{
-   public:
-	explicit CDisjointSets(size_t n) : m_parent(n) { std::iota(m_parent.begin(), m_parent.end(), 0); }
-	int find(int i)
-	{
-		while (m_parent[i] != i)
-			i = m_parent[i] = m_parent[m_parent[i]];
-		return i;
-	}
-	void join(int a, int b) { m_parent[find(a)] = find(b); }
-
-   private:
-	std::vector<int> m_parent;
-};
-}  // namespace
-
 void CNormalEquations::followStructure(const CPoseGraph& graph, CMultifrontalCholesky& cholesky)
 {
-	if (sameStructure(graph)) return;
-	requireConnected(graph);
-	rememberStructure(graph);
-
-	std::vector<int> free_index(graph.nodeCount(), -1);
-	m_node_of_column.clear();
-	for (int node = 0; node < int(graph.nodeCount()); node++) {
-		if (m_fixed[node]) continue;
-		free_index[node] = int(m_node_of_column.size());
-		m_node_of_column.push_back(node);
-	}
-	const std::vector<int> free_nodes = m_node_of_column;
-	const auto pairs = coupledPairs(free_index);
-	orderAndAnalyze(int(free_nodes.size()), pairs, cholesky);
-
-	m_column_of_node.assign(graph.nodeCount(), -1);
-	for (size_t column = 0; column < m_order.size(); column++) {
-		m_node_of_column[column] = free_nodes[m_order[column]];
-		m_column_of_node[m_node_of_column[column]] = int(column);
-	}
+	if (!m_structure.follow(graph) && m_ready) return;
+	m_ready = false;
+	m_structure.requireHeld(graph);
+	orderAndAnalyze(int(m_structure.freeNodes().size()), coupledFreePairs(graph.nodeCount()), cholesky);
+	nameColumns(graph.nodeCount());
 	findSlots();
+	m_ready = true;
 }
 
-bool CNormalEquations::sameStructure(const CPoseGraph& graph) const
+/** Pairs (a, b), a < b, of free nodes that share a factor, by their number among the free ones. */
+std::vector<CBlockMatrix::TPosition> CNormalEquations::coupledFreePairs(size_t node_count) const
 {
-	if (graph.nodeCount() != m_fixed.size() || graph.edgeCount() != m_ends.size()) return false;
-	for (size_t node = 0; node < m_fixed.size(); node++)
-		if (graph.isFixed(int(node)) != bool(m_fixed[node])) return false;
-	for (size_t k = 0; k < m_ends.size(); k++)
-		if (m_ends[k] != std::array<int, 2>{graph.edges()[k].from, graph.edges()[k].to}) return false;
-	return true;
-}
-
-void CNormalEquations::rememberStructure(const CPoseGraph& graph)
-{
-	m_fixed.resize(graph.nodeCount());
-	for (size_t node = 0; node < m_fixed.size(); node++)
-		m_fixed[node] = graph.isFixed(int(node));
-	m_ends.clear();
-	for (const TPoseEdge& edge : graph.edges())
-		m_ends.push_back({edge.from, edge.to});
-}
-
-void CNormalEquations::requireConnected(const CPoseGraph& graph) const
-{
-	CDisjointSets sets(graph.nodeCount());
-	for (const TPoseEdge& edge : graph.edges())
-		sets.join(edge.from, edge.to);
-	std::vector<char> held(graph.nodeCount(), 0);
-	for (int node = 0; node < int(graph.nodeCount()); node++)
-		if (graph.isFixed(node)) held[sets.find(node)] = 1;
-	for (int node = 0; node < int(graph.nodeCount()); node++)
-		if (!held[sets.find(node)])
-			throw CError(
-				"node " + std::to_string(node), "no chain of edges joins it to a fixed node",
-				"fix a node of its component or add the missing edge");
-}
-
-/** Pairs (a, b), a < b, of free nodes that share an edge, sorted, each once. */
-std::vector<CBlockMatrix::TPosition> CNormalEquations::coupledPairs(const std::vector<int>& index) const
-{
+	std::vector<int> index(node_count, -1);
+	int next = 0;
+	for (const int node : m_structure.freeNodes())
+		index[node] = next++;
 	std::vector<CBlockMatrix::TPosition> pairs;
-	pairs.reserve(m_ends.size());
-	for (const auto& [from, to] : m_ends)
-		if (index[from] >= 0 && index[to] >= 0)
-			pairs.push_back({std::min(index[from], index[to]), std::max(index[from], index[to])});
-	std::sort(pairs.begin(), pairs.end());
-	pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+	pairs.reserve(m_structure.pairs().size());
+	for (const auto& [a, b] : m_structure.pairs())
+		if (index[a] >= 0 && index[b] >= 0) pairs.push_back({index[a], index[b]});
 	return pairs;
 }
 
@@ -120,18 +50,39 @@ void CNormalEquations::orderAndAnalyze(
 	m_ordered_pairs = pairs;
 }
 
+void CNormalEquations::nameColumns(size_t node_count)
+{
+	m_node_of_column.resize(m_order.size());
+	m_column_of_node.assign(node_count, -1);
+	for (size_t column = 0; column < m_order.size(); column++) {
+		m_node_of_column[column] = m_structure.freeNodes()[m_order[column]];
+		m_column_of_node[m_node_of_column[column]] = int(column);
+	}
+}
+
 void CNormalEquations::findSlots()
 {
-	m_slots.clear();
-	for (const auto& [from, to] : m_ends) {
-		TEdgeSlots slots{m_column_of_node[from], m_column_of_node[to], {}, {}, {}};
-		if (slots.from_column >= 0) slots.from = m_H.diagonalSlot(slots.from_column);
-		if (slots.to_column >= 0) slots.to = m_H.diagonalSlot(slots.to_column);
-		if (slots.from_column >= 0 && slots.to_column >= 0)
-			slots.cross = m_H.slot(
-				std::max(slots.from_column, slots.to_column), std::min(slots.from_column, slots.to_column));
-		m_slots.push_back(slots);
+	m_edge_slots.clear();
+	m_prior_slots.clear();
+	for (const TFactorNodes& nodes : m_structure.edges())
+		m_edge_slots.push_back(slotsOf(nodes));
+	for (const TFactorNodes& nodes : m_structure.priors())
+		m_prior_slots.push_back(slotsOf(nodes));
+}
+
+CNormalEquations::TFactorSlots CNormalEquations::slotsOf(const TFactorNodes& nodes) const
+{
+	TFactorSlots slots{nodes.count, {-1, -1, -1}, {}};
+	for (int a = 0; a < nodes.count; a++) {
+		const int column = slots.column[a] = m_column_of_node[nodes.node[a]];
+		if (column < 0) continue;
+		slots.slot[TFactorNormal::lower(a, a)] = m_H.diagonalSlot(column);
+		for (int b = 0; b < a; b++)
+			if (slots.column[b] >= 0)
+				slots.slot[TFactorNormal::lower(a, b)] =
+					m_H.slot(std::max(column, slots.column[b]), std::min(column, slots.column[b]));
 	}
+	return slots;
 }
 
 TChi2 CNormalEquations::linearize(const CPoseGraph& graph)
@@ -139,31 +90,38 @@ TChi2 CNormalEquations::linearize(const CPoseGraph& graph)
 	m_H.setZero();
 	m_b.setZero();
 	TChi2 sum;
-	for (size_t k = 0; k < m_slots.size(); k++) {
+	for (size_t k = 0; k < m_edge_slots.size(); k++) {
 		const TPoseEdge& edge = graph.edges()[k];
-		const TEdgeNormal normal = edgeNormal(edge, graph.poses()[edge.from], graph.poses()[edge.to]);
-		addEdge(m_slots[k], normal, robustWeight(edge.loss, normal.s));
-		sum.plain += normal.s;
-		sum.robust += robustCost(edge.loss, normal.s);
+		add(m_edge_slots[k], linearizeEdge(edge, graph.states()), edge.loss, sum);
+	}
+	for (size_t k = 0; k < m_prior_slots.size(); k++) {
+		const TPosePrior& prior = graph.priors()[k];
+		add(m_prior_slots[k], linearizePrior(prior, graph.states()), prior.loss, sum);
 	}
 	return sum;
 }
 
-void CNormalEquations::addEdge(const TEdgeSlots& slots, const TEdgeNormal& normal, double weight)
+void CNormalEquations::add(
+	const TFactorSlots& slots, const TFactorNormal& normal, const TRobustLoss& loss, TChi2& sum)
 {
-	const int from = slots.from_column, to = slots.to_column;
-	if (from >= 0) {
-		m_H.block(slots.from) += weight * normal.H_from_from;
-		m_b.segment<6>(6 * from) -= weight * normal.g_from;
+	const double weight = robustWeight(loss, normal.s);
+	for (int a = 0, k = 0; a < slots.count; a++) {
+		const int column = slots.column[a];
+		for (int b = 0; b < a; b++, k++) {
+			if (column < 0 || slots.column[b] < 0) continue;
+			auto block = m_H.block(slots.slot[k]);
+			if (column > slots.column[b])
+				block += weight * normal.H[k];
+			else
+				block += weight * normal.H[k].transpose();
+		}
+		if (column >= 0) {
+			m_H.block(slots.slot[k]) += weight * normal.H[k];
+			m_b.segment<6>(6 * column) -= weight * normal.g[a];
+		}
+		k++;
 	}
-	if (to >= 0) {
-		m_H.block(slots.to) += weight * normal.H_to_to;
-		m_b.segment<6>(6 * to) -= weight * normal.g_to;
-	}
-	if (from < 0 || to < 0) return;
-	if (from > to)
-		m_H.block(slots.cross) += weight * normal.H_from_to;
-	else
-		m_H.block(slots.cross) += weight * normal.H_from_to.transpose();
+	sum.plain += normal.s;
+	sum.robust += robustCost(loss, normal.s);
 }
 }  // namespace posidonia

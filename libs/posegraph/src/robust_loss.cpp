@@ -4,7 +4,9 @@
 
 namespace posidonia
 {
-double robustCost(const TRobustLoss& loss, double s)
+namespace
+{
+double rho(const TRobustLoss& loss, double s)
 {
 	const double k2 = loss.scale * loss.scale;
 	switch (loss.kind) {
@@ -12,13 +14,15 @@ double robustCost(const TRobustLoss& loss, double s)
 			return s <= k2 ? s : 2 * loss.scale * std::sqrt(s) - k2;
 		case ERobustLoss::Cauchy:
 			return k2 * std::log1p(s / k2);
+		case ERobustLoss::Dcs:
+			return s <= k2 ? s : k2 * (3 * s - k2) / (s + k2);
 		case ERobustLoss::None:
 			break;
 	}
 	return s;
 }
 
-double robustWeight(const TRobustLoss& loss, double s)
+double rhoDerivative(const TRobustLoss& loss, double s)
 {
 	const double k2 = loss.scale * loss.scale;
 	switch (loss.kind) {
@@ -26,9 +30,24 @@ double robustWeight(const TRobustLoss& loss, double s)
 			return s <= k2 ? 1 : loss.scale / std::sqrt(s);
 		case ERobustLoss::Cauchy:
 			return 1 / (1 + s / k2);
+		case ERobustLoss::Dcs: {
+			const double scaling = 2 * k2 / (k2 + s);
+			return s <= k2 ? 1 : scaling * scaling;
+		}
 		case ERobustLoss::None:
 			break;
 	}
 	return 1;
+}
+}  // namespace
+
+double robustCost(const TRobustLoss& loss, double s)
+{
+	return loss.weight * rho(loss, s);
+}
+
+double robustWeight(const TRobustLoss& loss, double s)
+{
+	return loss.weight * rhoDerivative(loss, s);
 }
 }  // namespace posidonia

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace posidonia
 {
@@ -10,6 +11,17 @@ namespace
 {
 constexpr double kMaxDamping = 1e12;	///< steps are then far below rounding
 constexpr double kDivergedRatio = 1e6;	///< Gauss-Newton may climb on its way, but not this far
+
+/** Largest |b_i| / sqrt(H_ii); an undetermined coordinate (H_ii = 0) is infinitely far from settled. */
+double largestScaledGradient(const Eigen::VectorXd& b, const Eigen::VectorXd& diagonal)
+{
+	double largest = 0;
+	for (int i = 0; i < b.size(); i++)
+		largest = std::max(
+			largest, diagonal[i] > 0 ? std::abs(b[i]) / std::sqrt(diagonal[i])
+									 : std::numeric_limits<double>::infinity());
+	return largest;
+}
 }  // namespace
 
 const char* toString(EOptimizerStatus status)
@@ -51,7 +63,7 @@ CSparseOptimizer::CSparseOptimizer(const TOptimizerOptions& options)
 TOptimizerResult CSparseOptimizer::optimize(CPoseGraph& graph)
 {
 	m_system.followStructure(graph, m_cholesky);
-	const std::vector<Eigen::Isometry3d> start = graph.poses();
+	const TNodeStates start = graph.states();
 	TRun run{graph, {}, {}, m_gauss_newton ? 0 : m_options.initial_damping};
 	linearize(run);
 	run.result.before = run.cost;
@@ -68,7 +80,7 @@ bool CSparseOptimizer::iterate(TRun& run)
 	if (run.result.iterations == m_options.max_iterations) return stop(run, EOptimizerStatus::MaxIterations);
 	run.result.iterations++;
 	if (!solveDamped(run)) return reject(run, EOptimizerStatus::Singular);
-	movePoses(run.graph);
+	moveNodes(run.graph);
 	return judge(run);
 }
 
@@ -82,8 +94,7 @@ void CSparseOptimizer::linearize(TRun& run)
 {
 	run.cost = m_system.linearize(run.graph);
 	m_diagonal = m_system.H().diagonal();
-	run.result.gradient =
-		m_diagonal.size() == 0 ? 0 : (m_system.b().array() / m_diagonal.array().sqrt()).abs().maxCoeff();
+	run.result.gradient = largestScaledGradient(m_system.b(), m_diagonal);
 }
 
 /** (H + mu diag H) d = b. Marquardt's scaling makes the damping independent of metres and radians. */
@@ -101,12 +112,12 @@ bool CSparseOptimizer::solveDamped(TRun& run)
 	return m_step.allFinite();
 }
 
-void CSparseOptimizer::movePoses(const CPoseGraph& graph)
+void CSparseOptimizer::moveNodes(const CPoseGraph& graph)
 {
-	m_trial = graph.poses();
+	m_trial = graph.states();
 	for (int column = 0; column < m_system.freeNodeCount(); column++) {
-		auto& T = m_trial[m_system.nodeOf(column)];
-		T = orthonormalized(retract(T, m_step.segment<6>(6 * column)));
+		const int node = m_system.nodeOf(column);
+		retractNode(graph.nodeKind(node), m_step.segment<6>(6 * column), node, m_trial);
 	}
 }
 
@@ -127,7 +138,7 @@ bool CSparseOptimizer::accept(TRun& run, const TChi2& trial, bool small)
 {
 	const double decrease = run.cost.robust - trial.robust;
 	small |= std::abs(decrease) <= m_options.min_relative_decrease * run.cost.robust;
-	run.graph.setPoses(m_trial);
+	run.graph.setStates(m_trial);
 	run.cost = trial;
 	if (small) return stop(run, EOptimizerStatus::Converged);
 	if (!m_gauss_newton) {
@@ -148,21 +159,31 @@ bool CSparseOptimizer::reject(TRun& run, EOptimizerStatus why)
 	return true;
 }
 
-void CSparseOptimizer::finish(TRun& run, const std::vector<Eigen::Isometry3d>& start) const
+void CSparseOptimizer::finish(TRun& run, const TNodeStates& start) const
 {
 	TOptimizerResult& result = run.result;
 	if (m_gauss_newton && !(run.cost.robust <= result.before.robust) && !result.converged())
 		result.status = EOptimizerStatus::Diverged;
-	if (result.status == EOptimizerStatus::Diverged) run.graph.setPoses(start);
-	if (result.status != EOptimizerStatus::Singular) result.failed_node = -1;
-	const auto distances = edgesMahalanobis2(run.graph);
-	for (size_t k = 0; k < distances.size(); k++) {
-		const TRobustLoss& loss = run.graph.edges()[k].loss;
-		result.edge_weights.push_back(robustWeight(loss, distances[k]));
-		result.after.plain += distances[k];
-		result.after.robust += robustCost(loss, distances[k]);
+	if (result.status == EOptimizerStatus::Diverged) run.graph.setStates(start);
+	if (result.status == EOptimizerStatus::Singular)
+		result.problem =
+			"the information matrix is singular at " + describeNode(run.graph, result.failed_node);
+	else
+		result.failed_node = -1;
+	const auto weigh = [&result](const TRobustLoss& loss, double s) {
+		result.after.plain += s;
+		result.after.robust += robustCost(loss, s);
+		return robustWeight(loss, s);
+	};
+	const auto edges = edgesMahalanobis2(run.graph), priors = priorsMahalanobis2(run.graph);
+	result.degrees_of_freedom = 6 * (int(edges.size()) - m_system.freeNodeCount());
+	for (size_t k = 0; k < edges.size(); k++)
+		result.edge_weights.push_back(weigh(run.graph.edges()[k].loss, edges[k]));
+	for (size_t k = 0; k < priors.size(); k++) {
+		const TPosePrior& prior = run.graph.priors()[k];
+		result.prior_weights.push_back(weigh(prior.loss, priors[k]));
+		result.degrees_of_freedom += priorDimension(prior.kind);
 	}
-	result.degrees_of_freedom = 6 * (int(run.graph.edgeCount()) - m_system.freeNodeCount());
 }
 
 CMarginals CSparseOptimizer::marginals(const CPoseGraph& graph)
@@ -171,9 +192,10 @@ CMarginals CSparseOptimizer::marginals(const CPoseGraph& graph)
 	m_system.linearize(graph);
 	if (m_system.freeNodeCount() > 0 && !m_cholesky.factorize(m_system.H(), m_system.b()))
 		throw CError(
-			"node " + std::to_string(m_system.nodeOf(m_cholesky.failedBlock())),
+			describeNode(graph, m_system.nodeOf(m_cholesky.failedBlock())),
 			"the information matrix is singular to working precision there",
-			"look for edges of very unequal information");
-	return CMarginals(graph, m_system, m_cholesky);
+			"look for a degree of freedom that nothing measures, or for very unequal information");
+	m_marginal_poses = graph.poses();
+	return CMarginals(m_marginal_poses, m_factor);
 }
 }  // namespace posidonia

@@ -94,7 +94,7 @@ class CBayesTree : public CCliqueFactor
 	void take(const TClique& clique, std::vector<Vector6d>& d);
 	int newSlot();
 
-	const TFrontKernels& m_kernels;
+	const TFrontKernels* m_kernels;
 	std::vector<TClique> m_cliques;
 	std::vector<int> m_unused;			 ///< slots of m_cliques
 	std::vector<char> m_touched_flag;	 ///< of each slot

@@ -19,7 +19,9 @@ struct TG2oGraph
  * ...". */
 TG2oGraph readG2o(const std::string& path);
 
-/** Writes nodes, FIX and edges with 17 significant digits, whole or not at all.
+/** Writes poses, FIX and edges with 17 significant digits, whole or not at all. The format has neither priors
+ * nor error variables nor losses: these are left out, and an edge with an error variable is written with its
+ * corrected measurement, so that the edges' chi2 is the graph's. A graph that priors alone hold gets no FIX.
  * @param file_ids id of each node; empty: the graph's own. Throws CError when there are too few or repeated
  * ids. */
 void writeG2o(const std::string& path, const CPoseGraph& graph, const std::vector<long long>& file_ids = {});

@@ -13,7 +13,7 @@ struct TIncrementalOptions
 	double relinearize_step{0.1};
 	double solve_tolerance{1e-4};
 	int newest_last{2};
-	double max_work{0.5};
+	double max_work{0.8};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)

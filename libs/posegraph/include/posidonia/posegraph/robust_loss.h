@@ -5,21 +5,26 @@ namespace posidonia
 /** How an edge's squared Mahalanobis distance s becomes cost. */
 enum class ERobustLoss
 {
-	None,	///< rho(s) = s
-	Huber,	///< rho(s) = s below scale^2, then 2 scale sqrt(s) - scale^2
-	Cauchy	///< rho(s) = scale^2 log(1 + s / scale^2)
+	None,	 ///< rho(s) = s
+	Huber,	 ///< rho(s) = s below scale^2, then 2 scale sqrt(s) - scale^2
+	Cauchy,	 ///< rho(s) = scale^2 log(1 + s / scale^2)
+	/** rho(s) = s below P = scale^2, then P (3 s - P) / (s + P): dynamic covariance scaling, whose weight is
+	 * the square of min(1, 2 P / (P + s)) (Agarwal et al. 2013). */
+	Dcs
 };
 
 struct TRobustLoss
 {
 	ERobustLoss kind{ERobustLoss::None};
 	double scale{1.0};	///< Mahalanobis distance sqrt(s) where the loss departs from quadratic [-], > 0
+	/** Factor on rho, >= 0; 0 switches the measurement off. Set by CGraduatedNonconvexity, for one. */
+	double weight{1.0};
 };
 
-/** rho(s), the edge's share of the robust cost. */
+/** weight rho(s), the factor's share of the robust cost. */
 double robustCost(const TRobustLoss& loss, double s);
 
-/** rho'(s) in (0, 1]: the weight of the edge's information in iteratively re-weighted least squares
+/** weight rho'(s), rho' in (0, 1]: the weight of the information in iteratively re-weighted least squares
  * (Holland, Welsch 1977). */
 double robustWeight(const TRobustLoss& loss, double s);
 }  // namespace posidonia

@@ -4,9 +4,9 @@
 
 namespace posidonia
 {
-/** Poses by composing edges along a breadth-first tree from the fixed nodes, ties to the lower edge index;
- * every free node's pose is replaced. Throws CError naming a node that is not reached (the graph is left as
- * it was). */
+/** Poses by composing edges along a breadth-first tree from the fixed nodes and those with a full-pose prior,
+ * ties to the lower edge index; every free pose is replaced, error variables are left. Throws CError naming a
+ * node that is not reached (the graph is left as it was). */
 void initializeFromSpanningTree(CPoseGraph& graph);
 
 /** The same along the edges of these indices only, e.g. the odometry's. */

@@ -2,6 +2,7 @@
 
 #include <posidonia/base/options.h>
 #include <posidonia/posegraph/marginals.h>
+#include <posidonia/posegraph/system_factor.h>
 
 #include <string>
 
@@ -52,12 +53,17 @@ struct TOptimizerResult
 	EOptimizerStatus status{EOptimizerStatus::MaxIterations};
 	int iterations{0};	///< linear systems solved
 	TChi2 before, after;
-	int degrees_of_freedom{0};	   ///< 6 (edges - free nodes); honest information gives after.plain near this
+	/** Numbers measured by edges and priors, less 6 a free node; honest information gives after.plain near
+	 * it.
+	 */
+	int degrees_of_freedom{0};
 	double predicted_decrease{0};  ///< of the robust cost, by the last linear model: what was still to gain
 	double last_step{0};		   ///< largest coordinate of the last step [m, rad]
 	double gradient{0};			   ///< largest |b_i| / sqrt(H_ii) at the last linearisation [-]
 	int failed_node{-1};		   ///< Singular: the node where the factorisation broke down
-	std::vector<double> edge_weights;  ///< of each edge's information at the end, 1 without a loss
+	std::string problem;		   ///< Singular: that node and what is measured there
+	std::vector<double> edge_weights;	///< of each edge's information at the end, 1 without a loss
+	std::vector<double> prior_weights;	///< the same of each prior
 
 	bool converged() const { return status == EOptimizerStatus::Converged; }
 	/** after.plain / degrees_of_freedom: near 1 when the edges' information is honest. 0 without redundancy.
@@ -67,20 +73,22 @@ struct TOptimizerResult
 	int downWeightedEdges() const;
 };
 
-/** Nonlinear least squares on SE(3)^n (README, "Optimiser"), from the graph's present poses. Keep one object
- * for a growing graph: ordering and symbolic analysis are redone only when the sparsity pattern changes. The
- * same graph gives the same bytes, whatever was optimised before. */
+/** Nonlinear least squares over poses and error variables (README, "Optimiser"), from the graph's present
+ * states. Keep one object for a growing graph: ordering and symbolic analysis are redone only when the
+ * sparsity pattern changes. The same graph gives the same bytes, whatever was optimised before. */
 class CSparseOptimizer
 {
    public:
 	/** Throws CError for an unknown method. */
 	explicit CSparseOptimizer(const TOptimizerOptions& options = {});
+	CSparseOptimizer(const CSparseOptimizer&) = delete;
+	CSparseOptimizer& operator=(const CSparseOptimizer&) = delete;
 
-	/** Throws CError naming a node that no chain of edges joins to a fixed node. */
+	/** Throws CError naming a node that neither a fixed node nor priors hold, through edges. */
 	TOptimizerResult optimize(CPoseGraph& graph);
 
-	/** Covariances at the graph's present poses (linearised and factorised anew, undamped). Throws CError
-	 * when H is singular or a node is not joined to a fixed one. */
+	/** Covariances at the graph's present states (linearised and factorised anew, undamped). Throws CError
+	 * when H is singular or a node is not held. */
 	CMarginals marginals(const CPoseGraph& graph);
 
 	size_t symbolicAnalyses() const { return m_cholesky.analyses(); }
@@ -105,14 +113,16 @@ class CSparseOptimizer
 	bool judge(TRun& run);
 	bool accept(TRun& run, const TChi2& trial, bool small);
 	bool reject(TRun& run, EOptimizerStatus why);
-	void finish(TRun& run, const std::vector<Eigen::Isometry3d>& start) const;
-	void movePoses(const CPoseGraph& graph);
+	void finish(TRun& run, const TNodeStates& start) const;
+	void moveNodes(const CPoseGraph& graph);
 
 	TOptimizerOptions m_options;
 	bool m_gauss_newton;
 	CMultifrontalCholesky m_cholesky;
 	CNormalEquations m_system;
+	CSystemFactor m_factor{m_system, m_cholesky};
+	std::vector<Eigen::Isometry3d> m_marginal_poses;
 	Eigen::VectorXd m_diagonal, m_step;
-	std::vector<Eigen::Isometry3d> m_trial;
+	TNodeStates m_trial;
 };
 }  // namespace posidonia
