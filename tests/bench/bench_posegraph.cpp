@@ -17,9 +17,9 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "posegraph_peers.h"
 
@@ -35,7 +35,13 @@ struct TSettings
 	bool full{false};
 	int repetitions{5};
 	std::string json_file;
+	std::set<int> tables{1, 2, 3, 5};
 };
+
+using TCholesky = CSparseCholesky;
+
+/** Beyond so many nodes MRPT's levmarq takes minutes: it gets few iterations, which tell its speed. */
+constexpr size_t kLargeForMrpt = 5000;
 
 /** All rows of all tables, for --json. */
 json& rows()
@@ -115,9 +121,9 @@ std::vector<TSolver> batchSolvers(int repetitions)
 		{"Ceres, analytic, radius 1e16", ceres({}), repetitions},
 		{"Ceres, automatic, radius 1e16", ceres(automatic), repetitions},
 		{"Ceres, analytic, default radius", ceres(standard), std::min(3, repetitions)},
-		{"MRPT levmarq, 30 iterations at most",
+		{"MRPT levmarq, capped",
 		 [](CPoseGraph& graph) {
-			 const auto result = optimizeWithLevMarq(graph, 30);
+			 const auto result = optimizeWithLevMarq(graph, graph.nodeCount() > kLargeForMrpt ? 3 : 30);
 			 return TPeerResult{result.iterations, result.stopped};
 		 },
 		 1}};
@@ -195,7 +201,7 @@ TStepper batchStepper()
 {
 	struct TState
 	{
-		CSparseCholesky cholesky;
+		TCholesky cholesky;
 		CNormalEquations system;
 	};
 	return [state = std::make_shared<TState>()](CPoseGraph& graph, bool closed) {
@@ -357,7 +363,7 @@ void marginalsTable(int nodes)
 	CPoseGraph graph = survey(nodes).graph;
 	CSparseOptimizer optimizer;
 	optimizer.optimize(graph);
-	CSparseCholesky cholesky;
+	TCholesky cholesky;
 	CNormalEquations system;
 	system.followStructure(graph, cholesky);
 	system.linearize(graph);
@@ -386,37 +392,54 @@ void marginalsTable(int nodes)
 	std::cout << table.text() << "\n" << std::flush;
 }
 
+std::optional<TNamedGraph> sphere2500()
+{
+	return publicGraph("sphere2500", 727.1497);
+}
+
+TNamedGraph generatedSphere()
+{
+	return {"generated sphere", sphere({}).graph, 0};
+}
+
+void batchTables(const TSettings& settings)
+{
+	for (const auto& named : {sphere2500(), publicGraph("parking-garage", 1.238691)})
+		if (named) batchTable(*named, settings.repetitions);
+	batchTable(generatedSphere(), settings.repetitions);
+	batchTable(survey(settings.full ? 10000 : 3000), std::min(3, settings.repetitions));
+}
+
+void incrementalTables(const TSettings& settings)
+{
+	TNamedGraph named = sphere2500().value_or(generatedSphere());
+	if (!settings.full) named = {named.name + ", first 1000 nodes", firstNodes(named.graph, 1000), 0};
+	incrementalTable(named);
+}
+
 void runAll(const TSettings& settings)
 {
 	std::cout << "BLAS: " << blasText()
 			  << "; one thread. CPU seconds of the process, set-up included; medians of "
 			  << settings.repetitions << " interleaved runs (MRPT: 1). chi2 by one evaluator.\n\n";
-	const auto sphere2500 = publicGraph("sphere2500", 727.1497);
-	const auto garage = publicGraph("parking-garage", 1.238691);
-	std::cout << "== 1. batch, from the file's poses (lawn-mower: dead reckoning)\n";
-	for (const auto& named : {sphere2500, garage})
-		if (named) batchTable(*named, settings.repetitions);
-	TSphere sphere_options;
-	batchTable({"generated sphere", sphere(sphere_options).graph, 0}, settings.repetitions);
-	batchTable(survey(settings.full ? 10000 : 3000), std::min(3, settings.repetitions));
-
-	std::cout << "== 2. node by node\n";
-	TNamedGraph grows = sphere2500 ? *sphere2500 : TNamedGraph{"generated sphere", sphere({}).graph, 0};
-	if (!settings.full) grows = {grows.name + ", first 1000 nodes", firstNodes(grows.graph, 1000), 0};
-	incrementalTable(grows);
-
-	std::cout << "== 3. a survey that grows\n";
-	for (const bool wide : {false, true})
-		surveyTable(settings, wide);
-
-	std::cout << "== 5. marginals\n";
-	marginalsTable(settings.full ? 10000 : 1000);
+	const auto wanted = [&](int table, const char* title) {
+		const bool yes = settings.tables.count(table) > 0;
+		if (yes) std::cout << "== " << table << ". " << title << "\n";
+		return yes;
+	};
+	if (wanted(1, "batch, from the file's poses (generated graphs: from dead reckoning)"))
+		batchTables(settings);
+	if (wanted(2, "node by node")) incrementalTables(settings);
+	if (wanted(3, "surveys that grow"))
+		for (const bool wide : {false, true})
+			surveyTable(settings, wide);
+	if (wanted(5, "marginals")) marginalsTable(settings.full ? 10000 : 1000);
 	if (!settings.json_file.empty())
 		writeFileWhole(settings.json_file, [](std::ostream& out) { out << rows().dump(1, '\t') << "\n"; });
 }
 }  // namespace
 
-/** bench_posegraph [quick|full] [--json FILE] [--repetitions N] */
+/** bench_posegraph [quick|full] [--table N] [--json FILE] [--repetitions N] */
 int main(int argc, char** argv)
 {
 	try {
@@ -434,8 +457,11 @@ int main(int argc, char** argv)
 				settings.json_file = args[++i];
 			else if (args[i] == "--repetitions" && i + 1 < args.size())
 				settings.repetitions = std::max(1, std::stoi(args[++i]));
+			else if (args[i] == "--table" && i + 1 < args.size())
+				settings.tables = {std::stoi(args[++i])};
 			else
-				throw CUsageError(args[i], "is unknown", "give quick or full, --json FILE, --repetitions N");
+				throw CUsageError(
+					args[i], "is unknown", "give quick or full, --table N, --json FILE, --repetitions N");
 		}
 		runAll(settings);
 		return 0;

@@ -110,6 +110,8 @@ bool CGraphOptimizeApp::initialize(int argc, const char* const* argv)
 		"Exit status 3: the solver did not converge; the files are written and hold what it reached.",
 		"The optimised graph, g2o, with the input's ids and edges (here a file, not a folder)", "OUT.g2o");
 	auto& cmd = line.cmd();
+	// TCLAP counts optional unlabelled arguments over the whole program, not by command line.
+	TCLAP::OptionalUnlabeledTracker::alreadyOptional() = false;
 	TCLAP::UnlabeledValueArg<std::string> input("graph", "The graph to optimise", false, "", "IN.g2o", cmd);
 	CChoiceFlag solver(
 		"solver", "batch: sparse Cholesky, all nodes at once; levmarq: MRPT's own, for comparison",
@@ -130,6 +132,8 @@ bool CGraphOptimizeApp::initialize(int argc, const char* const* argv)
 		false, "", "FILE.csv", cmd);
 	TCLAP::SwitchArg json("", "json", "Print one JSON object instead of text", cmd);
 	if (!line.parse(argc, argv)) return false;
+	if (input.getValue().substr(0, 1) == "-")  // TCLAP takes a misspelt flag for the graph
+		throw CUsageError(input.getValue(), "is no flag", "see " + line.app() + " --help");
 
 	CIniFile ini = line.ini();
 	params.optimizer = optimizerOptions(ini);
