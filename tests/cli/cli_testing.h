@@ -52,7 +52,7 @@ inline const TSurvey& survey()
 inline const std::vector<std::string>& allApps()
 {
 	static const std::vector<std::string> apps{
-		"auv-sim", "auv-ekf", "auv-graphslam", "auv-eval", "auv-dataset2rawlog"};
+		"auv-sim", "auv-ekf", "auv-graphslam", "auv-eval", "auv-dataset2rawlog", "auv-graph-optimize"};
 	return apps;
 }
 

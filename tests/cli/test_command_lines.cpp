@@ -16,7 +16,10 @@ TEST(Cli, HelpNamesTheFlagsAndTheExitStatus)
 		{"auv-eval", {"-i", "--input", "-g", "--ground-truth", "--align", "--json", "--summary"}},
 		{"auv-dataset2rawlog",
 		 {"-i", "--input", "--format", "euroc|dvl-gt-csv", "--skip-bad", "--level", "--cubic", "--overwrite",
-		  "--attitude-noise", "--attitude-bias", "--attitude-bias-time", "--seed"}}};
+		  "--attitude-noise", "--attitude-bias", "--attitude-bias-time", "--seed"}},
+		{"auv-graph-optimize",
+		 {"IN.g2o", "--solver", "batch|levmarq", "--init", "file|odometry", "--robust", "none|huber|cauchy",
+		  "--robust-scale", "--weights", "--marginals", "--json", "Exit status 3"}}};
 	for (const auto& app : allApps())
 		for (const char* flag : {"--help", "-h"}) {
 			const TOutcome o = runProgram(app, flag);

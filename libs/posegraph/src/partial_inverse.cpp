@@ -28,6 +28,8 @@ struct TPart
 	const double* at(int row, int column) const { return values.data() + size_t(column) * size_t(ld) + row; }
 };
 
+constexpr int kGroup = 8;  ///< pivots at a time, so that the large part is read seldom
+
 class CPartialInverse
 {
    public:
@@ -51,8 +53,8 @@ class CPartialInverse
 		TPart& part = m_parts[c];
 		part.resize(clique.blocks, m_kernels.width);
 		if (clique.parent >= 0) readParent(clique, part);
-		for (int J = clique.pivots - 1; J >= 0; J--)
-			addColumn(clique, J, part);
+		for (int last = clique.pivots; last > 0; last -= kGroup)
+			addGroup(clique, std::max(0, last - kGroup), last, part);
 		for (int J = 0; J < clique.pivots; J++)
 			blocks[clique.nodes[J]] = TConstColumn(part.at(6 * J, 6 * J), 6, 6, Eigen::OuterStride<>(part.ld));
 		if (part.waiting == 0) part = {};
@@ -74,33 +76,86 @@ class CPartialInverse
 		if (--parent.waiting == 0) parent = {};
 	}
 
-	/** With B the rows below pivot J: S_BJ = -S_BB X and S_JJ = (L_JJ L_JJ^T)^-1 - X^T S_BJ, X = L_BJ L_JJ^-1. */
-	void addColumn(const CCliqueFactor::TClique& clique, int J, TPart& part)
+	/** With G the pivots [first, last) and B all rows below them, X = L_BG L_GG^-1:
+	 * S_BG = -S_BB X and S_GG = (L_GG L_GG^T)^-1 - X^T S_BG. */
+	void addGroup(const CCliqueFactor::TClique& clique, int first, int last, TPart& part)
 	{
-		const int m = clique.blocks, width = m_kernels.width, n = 6 * (m - J - 1);
-		const TConstColumn L(
-			clique.panel + blockColumnOffset(m, J, width), 6 * (m - J), 6,
-			Eigen::OuterStride<>(paddedRows(m, J, width)));
-		const Matrix6d inverse =
-			Matrix6d(L.topRows<6>()).triangularView<Eigen::Lower>().solve(Matrix6d::Identity());
-		m_X.resize(n, 6);
-		m_X.noalias() = L.bottomRows(n) * inverse;
+		const int groups = last - first, g = 6 * groups, n = 6 * (clique.blocks - last), width = m_kernels.width;
+		readGroup(clique, first, last);
+		const Eigen::MatrixXd inverse =
+			m_L_GG.topRows(g).leftCols(g).triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(g, g));
+		const int ld = n + width;
+		m_minus_X.resize(size_t(ld) * size_t(g) + size_t(width));
+		packGroups(inverse.data(), g, g, groups, 1, m_packed);
+		m_kernels.multiply(m_L_BG.data(), ld, n, g, m_packed.data(), m_minus_X.data(), ld, groups);
 
-		TColumn S_BJ(part.at(6 * (J + 1), 6 * J), n, 6, Eigen::OuterStride<>(part.ld));
+		double* S_BG = part.at(6 * last, 6 * first);
+		packGroups(m_minus_X.data(), ld, n, groups, -1, m_packed);
 		m_kernels.multiply(
-			part.at(6 * (J + 1), 6 * (J + 1)), part.ld, n, n, m_X.data(), part.at(6 * (J + 1), 6 * J), part.ld);
-		TColumn S_JJ(part.at(6 * J, 6 * J), 6, 6, Eigen::OuterStride<>(part.ld));
-		const Matrix6d S = inverse.transpose() * inverse - m_X.transpose() * S_BJ;
-		S_JJ = 0.5 * (S + S.transpose());
-		for (int k = 0; k < n; k++)
-			for (int i = 0; i < 6; i++)
-				*part.at(6 * J + i, 6 * (J + 1) + k) = S_BJ(k, i);
+			part.at(6 * last, 6 * last), part.ld, n, n, m_packed.data(), S_BG, part.ld, groups);
+		mirror(S_BG, part.ld, n, g, part.at(6 * first, 6 * last));
+
+		m_S_GG.noalias() = inverse.transpose() * inverse;
+		subtractProduct(n, groups, S_BG, part.ld);
+		TColumn(part.at(6 * first, 6 * first), g, g, Eigen::OuterStride<>(part.ld)) =
+			0.5 * (m_S_GG + m_S_GG.transpose());
+	}
+
+	/** S_GG -= X^T S_BG. X as packed is, six columns at a time, X^T column by column. */
+	void subtractProduct(int n, int groups, const double* S_BG, int ld)
+	{
+		const int g = 6 * groups, ld_product = g + m_kernels.width;
+		packGroups(S_BG, ld, n, groups, 1, m_packed_S);
+		m_product.resize(size_t(ld_product) * size_t(g) + size_t(m_kernels.width));
+		for (int q = 0; q < groups; q++)  // the vector beyond six rows is overwritten by the next
+			m_kernels.multiply(
+				m_packed.data() + size_t(6 * q) * size_t(n), 6, 6, n, m_packed_S.data(), m_product.data() + 6 * q,
+				ld_product, groups);
+		m_S_GG += TConstColumn(m_product.data(), g, g, Eigen::OuterStride<>(ld_product));
+	}
+
+	/** L_GG as a square, L_BG with room for a whole vector. */
+	void readGroup(const CCliqueFactor::TClique& clique, int first, int last)
+	{
+		const int m = clique.blocks, width = m_kernels.width, n = 6 * (m - last), ld = n + width;
+		m_L_GG.setZero(6 * (last - first), 6 * (last - first));
+		m_L_BG.resize(size_t(ld) * size_t(6 * (last - first)) + size_t(width));
+		for (int J = first; J < last; J++) {
+			const TConstColumn L(
+				clique.panel + blockColumnOffset(m, J, width), 6 * (m - J), 6,
+				Eigen::OuterStride<>(paddedRows(m, J, width)));
+			const int above = 6 * (last - J);
+			m_L_GG.block(6 * (J - first), 6 * (J - first), above, 6) = L.topRows(above);
+			TColumn(m_L_BG.data() + size_t(ld) * size_t(6 * (J - first)), n, 6, Eigen::OuterStride<>(ld)) =
+				L.bottomRows(n);
+		}
+	}
+
+	/** Columns, times `sign`, in groups of six, each row by row; with room for a whole vector. */
+	void packGroups(const double* A, int lda, int rows, int groups, double sign, CLargeBuffer& packed) const
+	{
+		packed.resize(6 * size_t(rows) * size_t(groups) + size_t(m_kernels.width));
+		double* to = packed.data();
+		for (int g = 0; g < groups; g++, to += 6 * rows)
+			for (int c = 0; c < 6; c++)
+				for (int r = 0; r < rows; r++)
+					to[6 * r + c] = sign * A[size_t(6 * g + c) * size_t(lda) + size_t(r)];
+		std::fill_n(to, m_kernels.width, 0.0);
+	}
+
+	/** The transpose of A (rows x columns) to `to`, which has the same distance between columns. */
+	static void mirror(const double* A, int ld, int rows, int columns, double* to)
+	{
+		for (int r = 0; r < rows; r++)
+			for (int c = 0; c < columns; c++)
+				to[size_t(r) * size_t(ld) + c] = A[size_t(c) * size_t(ld) + r];
 	}
 
 	const CCliqueFactor& m_factor;
 	const TFrontKernels& m_kernels;
 	std::vector<TPart> m_parts;
-	Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> m_X;
+	CLargeBuffer m_L_BG, m_minus_X, m_packed, m_packed_S, m_product;
+	Eigen::MatrixXd m_L_GG, m_S_GG;
 };
 }  // namespace
 

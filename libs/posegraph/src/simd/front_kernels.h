@@ -35,9 +35,10 @@ struct TFrontKernels
 	 * of the separator, on return the first 6 `pivots` that of the pivots. */
 	void (*backSubstitute)(const double* panel, int m, int pivots, double* x);
 
-	/** C = -A X: A of rows x n, X of n x 6 row by row, C of rows x 6. Columns of A and C have room for a whole vector
-	 * after their end. */
-	void (*multiply)(const double* A, int lda, int rows, int n, const double* X, double* C, int ldc);
+	/** C = -A X: A of rows x n, C of rows x 6 `groups`. X in groups of six columns, each n x 6 row by row. Columns of
+	 * A and C have room for a whole vector after their end. */
+	void (*multiply)(
+		const double* A, int lda, int rows, int n, const double* X, double* C, int ldc, int groups);
 };
 
 /** Best kernels for this CPU, or those named by the environment variable POSIDONIA_SIMD (sse2, avx2, avx512) when the

@@ -201,28 +201,53 @@ void addToRest(const double* U, int blocks, const int* rows, double* rest, int m
 			rowsInMemory(m, rows[a]));
 }
 
-template <int NV>
+/** C = -A X (FRESH) or C -= A X, for one tile of rows and six columns. */
+template <int NV, bool FRESH>
 inline void multiplyTile(const double* A, int lda, int n, const double* X, double* C, int ldc)
 {
-	TVector acc[NV][6] = {};
-	for (int k = 0; k < n; k++, A += lda, X += 6)
-		for (int v = 0; v < NV; v++) {
-			const TVector a = load(A + v * W);
-			for (int c = 0; c < 6; c++)
-				acc[v][c] -= a * X[c];
-		}
+	TVector acc[NV][6];
+	for (int c = 0; c < 6; c++)
+		for (int v = 0; v < NV; v++)
+			acc[v][c] = FRESH ? TVector{} : load(C + c * ldc + v * W);
+	for (int k = 0; k < n; k++, A += lda, X += 6) {
+		TVector a[NV];
+		for (int v = 0; v < NV; v++)
+			a[v] = load(A + v * W);
+		for (int c = 0; c < 6; c++)
+			for (int v = 0; v < NV; v++)
+				acc[v][c] -= a[v] * X[c];
+	}
 	for (int c = 0; c < 6; c++)
 		for (int v = 0; v < NV; v++)
 			store(C + c * ldc + v * W, acc[v][c]);
 }
 
-void multiply(const double* A, int lda, int rows, int n, const double* X, double* C, int ldc)
+/** Some columns of A: a tile of its rows is read once for all groups. */
+template <bool FRESH>
+inline void multiplyChunk(
+	const double* A, int lda, int rows, int chunk, int n, const double* X, double* C, int ldc, int groups)
 {
 	int r = 0;
 	for (; r + W < rows; r += KERNELS_VECTORS * W)
-		multiplyTile<KERNELS_VECTORS>(A + r, lda, n, X, C + r, ldc);
+		for (int g = 0; g < groups; g++)
+			multiplyTile<KERNELS_VECTORS, FRESH>(
+				A + r, lda, chunk, X + 6 * g * size_t(n), C + r + 6 * g * size_t(ldc), ldc);
 	for (; r < rows; r += W)
-		multiplyTile<1>(A + r, lda, n, X, C + r, ldc);
+		for (int g = 0; g < groups; g++)
+			multiplyTile<1, FRESH>(A + r, lda, chunk, X + 6 * g * size_t(n), C + r + 6 * g * size_t(ldc), ldc);
+}
+
+void multiply(const double* A, int lda, int rows, int n, const double* X, double* C, int ldc, int groups)
+{
+	constexpr int kColumns = 96;
+	for (int k = 0; k < n || k == 0; k += kColumns) {
+		const int chunk = n - k < kColumns ? n - k : kColumns;
+		const double* from = A + size_t(k) * size_t(lda);
+		if (k == 0)
+			multiplyChunk<true>(from, lda, rows, chunk, n, X, C, ldc, groups);
+		else
+			multiplyChunk<false>(from, lda, rows, chunk, n, X + 6 * size_t(k), C, ldc, groups);
+	}
 }
 
 inline double sum(TVector v)

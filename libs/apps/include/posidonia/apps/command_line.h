@@ -47,12 +47,25 @@ class CCommandLine
 std::string versionText();
 
 /** main() of an app class with initialize(argc, argv) -> bool and run(): prints "app: error: ..." and returns
- * the exit status: 0 done, 1 failed, 2 wrong command line. */
+ * the exit status: 0 done (or the app's own exitStatus(), when it has one), 1 failed, 2 wrong command line.
+ */
 template <class APP>
 int runApp(int argc, const char* const* argv);
 
 /** Prints the problem; returns the exit status. */
 int reportProblem(const char* app, const std::exception& problem);
+
+/** What an app ends with after run(): 0, unless it has an exitStatus(). */
+template <class APP>
+auto statusAfterRun(const APP& app, int) -> decltype(app.exitStatus())
+{
+	return app.exitStatus();
+}
+template <class APP>
+int statusAfterRun(const APP&, long)
+{
+	return 0;
+}
 }  // namespace posidonia
 
 template <class APP>
@@ -60,8 +73,9 @@ int posidonia::runApp(int argc, const char* const* argv)
 {
 	try {
 		APP app;
-		if (app.initialize(argc, argv)) app.run();
-		return 0;
+		if (!app.initialize(argc, argv)) return 0;
+		app.run();
+		return statusAfterRun(app, 0);
 	}
 	catch (const std::exception& problem) {
 		return reportProblem(APP::name, problem);

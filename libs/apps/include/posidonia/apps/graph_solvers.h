@@ -1,0 +1,43 @@
+#pragma once
+
+#include <posidonia/posegraph/sparse_optimizer.h>
+
+#include <string>
+#include <vector>
+
+/** The choices of auv-graph-optimize, by name. A new solver, start or kernel is added here only. */
+namespace posidonia
+{
+struct TRobustChoice
+{
+	std::string kernel{"none"};
+	double scale{4.0};	///< Mahalanobis distance where the loss departs from quadratic [-]
+};
+
+struct TGraphSolution
+{
+	std::string status;	 ///< Why it stopped
+	bool converged{false};
+	int iterations{0};
+	std::vector<double> edge_weights;  ///< Of each edge's information at the end, 1 without a loss
+};
+
+const std::vector<std::string>& graphStartNames();
+/** Replaces the free nodes' poses: `file` leaves them; `odometry` composes the edges between neighbours,
+ * and where these do not reach every node, a breadth-first tree of all edges. Returns what was done, in
+ * words. Throws CError naming a node that is not reached. */
+std::string startGraph(CPoseGraph& graph, const std::string& start);
+
+const std::vector<std::string>& robustKernelNames();
+/** Not between neighbours, whose ids follow one another. */
+bool isLoop(const TPoseEdge& edge);
+
+const std::vector<std::string>& graphSolverNames();
+/** Only `batch` knows robust kernels; they are for the loops, the odometry is trusted. Throws CError. */
+TGraphSolution solveGraph(
+	CPoseGraph& graph, const std::string& solver, const TOptimizerOptions& options,
+	const TRobustChoice& robust);
+
+/** Covariance of (rho, phi) of every node at the graph's poses and losses; zero for fixed ones. */
+std::vector<Matrix6d> marginalsOfAllNodes(const CPoseGraph& graph);
+}  // namespace posidonia
