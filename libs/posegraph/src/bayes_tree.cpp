@@ -2,6 +2,7 @@
 #include <posidonia/posegraph/bayes_tree.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "simd/front_kernels.h"
 
@@ -30,8 +31,35 @@ int CBayesTree::cliqueOfFactor(int factor) const
 	return factor < int(m_clique_of_factor.size()) ? m_clique_of_factor[factor] : -1;
 }
 
+/** An orphan that has not kept its rest is eliminated again. */
+void CBayesTree::touchWithoutRest()
+{
+	for (size_t k = 0; k < m_touched.size(); k++)
+		for (const int child : m_cliques[m_touched[k]].children)
+			if (!m_touched_flag[child] && !m_cliques[child].has_rest) touch(child);
+}
+
+/** Rests are as large as L again; they matter only where something is touched. Of cliques that have not been touched for
+ * long only so many are kept that each stands for at least as many pivots as its separator has: finding the others
+ * again costs about one dense elimination of that size. */
+void CBayesTree::dropRests()
+{
+	static const size_t kHot = getenv("HOT") ? size_t(atoi(getenv("HOT"))) : 200;
+	for (; !m_by_age.empty() && m_by_age.front().second + kHot < m_version; m_by_age.pop_front()) {
+		TClique& clique = m_cliques[m_by_age.front().first];
+		if (clique.made != m_by_age.front().second || clique.parent < 0) continue;
+		clique.kept_below = int(clique.pivots.size());
+		for (const int child : clique.children)
+			if (!m_cliques[child].has_rest) clique.kept_below += m_cliques[child].kept_below;
+		if (clique.kept_below >= clique.left()) continue;
+		clique.rest = {};
+		clique.has_rest = false;
+	}
+}
+
 CBayesTree::TTop CBayesTree::takeTop()
 {
+	touchWithoutRest();
 	TTop top;
 	for (const int c : m_touched) {
 		TClique& clique = m_cliques[c];
@@ -60,7 +88,8 @@ CBayesTree::TTop CBayesTree::takeTop()
 }
 
 int CBayesTree::eliminate(
-	const TTop& top, const std::vector<int>& order, const std::function<TFactorNodes(int)>& nodes_of,
+	const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
+	const std::function<TFactorNodes(int)>& nodes_of,
 	const TNormalOf& normal_of)
 {
 	m_version++;
@@ -92,7 +121,8 @@ int CBayesTree::eliminate(
 			m_cliques[orphan].separator.data(),
 			m_cliques[orphan].separator.data() + m_cliques[orphan].separator.size());
 
-	m_fresh = newCliques(eliminationForest(int(order.size()), sets), order);
+	static const int kMaxPivots = getenv("MP") ? atoi(getenv("MP")) : 8;  // a touched pivot takes those of its clique with it
+	m_fresh = newCliques(eliminationForest(int(order.size()), sets, {late, kMaxPivots}), order);
 	for (const int factor : top.factors)
 		placeFactor(factor, nodes_of(factor));
 	m_adopted = top.orphans;
@@ -101,7 +131,9 @@ int CBayesTree::eliminate(
 	for (const int c : m_fresh) {
 		const int failed = eliminateClique(m_cliques[c], normal_of);
 		if (failed >= 0) return failed;
+		m_by_age.emplace_back(c, m_version);
 	}
+	dropRests();
 	return -1;
 }
 
@@ -138,6 +170,8 @@ std::vector<int> CBayesTree::newCliques(const TEliminationForest& forest, const 
 		for (const int p : from.separator)
 			clique.separator.push_back(order[forest.order[p]]);
 		const double p = 6.0 * from.pivots, s = 6.0 * from.left();
+		clique.made = m_version;
+		clique.has_rest = true;
 		clique.work = p * p * p / 6 + p * p * s / 2 + p * s * s / 2;
 		m_whole_work += clique.work;
 	}

@@ -1,6 +1,7 @@
 #include <posidonia/posegraph/elimination_forest.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace posidonia
 {
@@ -144,41 +145,55 @@ std::vector<int> postorderOf(const std::vector<TNode>& nodes)
 	return out;
 }
 
-TEliminationForest numbered(int n, const std::vector<TNode>& nodes)
+/** Cliques of the node's pivots, in a chain when they are many; separators still by the old positions. */
+void appendCliques(TNode& node, const TForestWishes& wishes, TEliminationForest& forest)
+{
+	if (!wishes.late.empty())
+		std::stable_sort(node.pivots.begin(), node.pivots.end(), [&](int a, int b) {
+			return wishes.late[a] < wishes.late[b];
+		});
+	const int count = int(node.pivots.size());
+	const int pieces = (count + wishes.max_pivots - 1) / wishes.max_pivots;
+	for (int k = 0; k < pieces; k++) {
+		const int first = int(int64_t(count) * k / pieces), last = int(int64_t(count) * (k + 1) / pieces);
+		TEliminationForest::TClique clique{int(forest.order.size()), last - first, {}, -1, {}};
+		clique.separator.assign(node.pivots.begin() + last, node.pivots.end());
+		clique.separator.insert(clique.separator.end(), node.structure.begin(), node.structure.end());
+		for (int p = first; p < last; p++) {
+			forest.order.push_back(node.pivots[p]);
+			forest.clique_of.push_back(int(forest.cliques.size()));
+		}
+		forest.cliques.push_back(std::move(clique));
+	}
+}
+
+TEliminationForest numbered(int n, std::vector<TNode>& nodes, const TForestWishes& wishes)
 {
 	TEliminationForest forest;
-	std::vector<int> position(n), clique_of_node(nodes.size(), -1);
 	forest.order.reserve(n);
 	forest.clique_of.reserve(n);
-	for (const int node : postorderOf(nodes)) {
-		const int clique = int(forest.cliques.size());
-		clique_of_node[node] = clique;
-		forest.cliques.push_back({int(forest.order.size()), int(nodes[node].pivots.size()), {}, -1, {}});
-		for (const int j : nodes[node].pivots) {
-			position[j] = int(forest.order.size());
-			forest.order.push_back(j);
-			forest.clique_of.push_back(clique);
-		}
-		for (const int c : nodes[node].children) {
-			forest.cliques[clique_of_node[c]].parent = clique;
-			forest.cliques[clique].children.push_back(clique_of_node[c]);
-		}
-		forest.cliques[clique].separator = nodes[node].structure;
-	}
-	for (auto& clique : forest.cliques) {
-		std::sort(clique.children.begin(), clique.children.end());
+	for (const int node : postorderOf(nodes))
+		appendCliques(nodes[node], wishes, forest);
+	std::vector<int> position(n);
+	for (int p = 0; p < n; p++)
+		position[forest.order[p]] = p;
+	for (int c = 0; c < int(forest.cliques.size()); c++) {
+		auto& clique = forest.cliques[c];
 		for (int& j : clique.separator)
 			j = position[j];
 		std::sort(clique.separator.begin(), clique.separator.end());
+		if (clique.separator.empty()) continue;
+		clique.parent = forest.clique_of[clique.separator.front()];
+		forest.cliques[clique.parent].children.push_back(c);
 	}
 	return forest;
 }
 }  // namespace
 
-TEliminationForest eliminationForest(int n, const TVariableSets& sets)
+TEliminationForest eliminationForest(int n, const TVariableSets& sets, const TForestWishes& wishes)
 {
 	CSymbolicElimination symbolic(n, sets);
 	amalgamate(symbolic.nodes, postorderOf(symbolic.nodes));
-	return numbered(n, symbolic.nodes);
+	return numbered(n, symbolic.nodes, wishes);
 }
 }  // namespace posidonia

@@ -2,6 +2,7 @@
 #include <posidonia/posegraph/incremental_optimizer.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 namespace posidonia
@@ -122,8 +123,9 @@ bool CIncrementalOptimizer::eliminate(const CPoseGraph& graph, TIncrementalResul
 	m_new_nodes.clear();
 	m_new_factors.clear();
 	result.eliminated = int(top.nodes.size());
+	const std::vector<int> order = orderOf(top);
 	const int failed = m_tree.eliminate(
-		top, orderOf(top), [&](int factor) { return m_factor_nodes[factor]; },
+		top, order, nearNewest(order), [&](int factor) { return m_factor_nodes[factor]; },
 		[&](int factor) { return normalOf(graph, factor); });
 	return failed < 0;
 }
@@ -146,16 +148,47 @@ std::vector<int> CIncrementalOptimizer::orderOf(const CBayesTree::TTop& top)
 		couple(m_factor_nodes[factor].node, m_factor_nodes[factor].count);
 	for (const int orphan : top.orphans)
 		couple(m_tree.separatorOf(orphan).data(), int(m_tree.separatorOf(orphan).size()));
-	const int newest = int(m_d.size()) - m_options.newest_last;
+	// Rings round the newest pose: the next nodes are joined on in the innermost, seldom further out, so that the
+	// outer ones, which make larger fronts, are seldom touched.
+	std::vector<double> late = nearNewest(top.nodes);
+	std::vector<int> by_nearness(n);
+	std::iota(by_nearness.begin(), by_nearness.end(), 0);
+	std::sort(by_nearness.begin(), by_nearness.end(), [&](int a, int b) {
+		return late[a] != late[b] ? late[a] > late[b] : top.nodes[a] > top.nodes[b];
+	});
+	static const double kGrowth = getenv("GR") ? atof(getenv("GR")) : 4;
+	int rings = 1;
+	for (double size = m_options.newest_last; size < n; size *= kGrowth)
+		rings++;
 	std::vector<int> groups(n, 0);
+	double size = m_options.newest_last;
+	for (int k = 0, ring = rings - 1; k < n; k++) {
+		if (k >= size) ring--, size *= kGrowth;
+		groups[by_nearness[k]] = ring;
+	}
 	for (int k = 0; k < n; k++)
-		groups[k] = m_kinds[top.nodes[k]] == ENodeKind::ErrorVariable ? 2 : top.nodes[k] >= newest ? 1 : 0;
-	if (n > 0 && n < 3)  // CAMD wants groups below n
+		if (m_kinds[top.nodes[k]] == ENodeKind::ErrorVariable || top.nodes[k] == int(m_d.size()) - 1)
+			groups[k] = rings;
+	if (n <= rings)  // CAMD wants groups below n
 		std::fill(groups.begin(), groups.end(), 0);
 	std::vector<int> order = constrainedMinimumDegreeOrder(n, m_pairs, groups);
 	for (int& k : order)
 		k = top.nodes[k];
 	return order;
+}
+
+/** Where the next nodes are likely to be joined on: the nearer to the newest pose, the sooner; error variables at once. */
+std::vector<double> CIncrementalOptimizer::nearNewest(const std::vector<int>& order) const
+{
+	int newest = int(m_d.size()) - 1;
+	while (newest > 0 && m_kinds[newest] != ENodeKind::Pose)
+		newest--;
+	const Eigen::Vector3d at = m_linearization.poses[newest].translation();
+	std::vector<double> late;
+	for (const int node : order)
+		late.push_back(
+			m_kinds[node] == ENodeKind::ErrorVariable ? 1 : -(m_linearization.poses[node].translation() - at).norm());
+	return late;
 }
 
 TFactorNormal CIncrementalOptimizer::normalOf(const CPoseGraph& graph, int factor) const

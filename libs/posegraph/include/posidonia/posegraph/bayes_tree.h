@@ -6,6 +6,7 @@
 #include <posidonia/posegraph/large_buffer.h>
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 
 namespace posidonia
@@ -43,10 +44,12 @@ class CBayesTree : public CCliqueFactor
 
 	TTop takeTop();
 
-	/** Eliminates the top anew. @param order of its nodes; @param nodes_of the nodes of each factor that are not fixed
+	/** Eliminates the top anew. @param order of its nodes; @param late of each of them in this order: the higher, the
+	 * sooner it will be touched again; @param nodes_of the nodes of each factor that are not fixed
 	 * @return -1, or the node where H is not positive definite; the tree must then be cleared */
 	int eliminate(
-		const TTop& top, const std::vector<int>& order, const std::function<TFactorNodes(int)>& nodes_of,
+		const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
+		const std::function<TFactorNodes(int)>& nodes_of,
 		const TNormalOf& normal_of);
 
 	/** Solution of the cliques made by the last eliminate(), and further down wherever a coordinate changes by more than
@@ -75,7 +78,11 @@ class CBayesTree : public CCliqueFactor
 		bool rows_ascend{true};
 		int parent{-1};
 		double work{0};
-		CLargeBuffer panel, rest;
+		size_t made{0};	   ///< the version that it was made at
+		int kept_below{0};	///< pivots of it and of cliques below whose rests were dropped
+		CLargeBuffer panel;
+		CLargeBuffer rest;	///< what it leaves to the parent; may be dropped, and is then found again by elimination
+		bool has_rest{false};
 
 		int left() const { return int(separator.size()); }
 		int size() const { return int(pivots.size()) + left(); }
@@ -93,6 +100,8 @@ class CBayesTree : public CCliqueFactor
 	bool wouldChange(const TClique& clique, const Vector6d& tolerance, const std::vector<Vector6d>& d);
 	void take(const TClique& clique, std::vector<Vector6d>& d);
 	int newSlot();
+	void touchWithoutRest();
+	void dropRests();
 
 	const TFrontKernels* m_kernels;
 	std::vector<TClique> m_cliques;
@@ -111,6 +120,7 @@ class CBayesTree : public CCliqueFactor
 	std::vector<double> m_x;			   ///< scratch
 	std::vector<char> m_changed;		   ///< scratch, of each node
 	std::vector<int> m_solved;
+	std::deque<std::pair<int, size_t>> m_by_age;  ///< cliques and when they were made
 	size_t m_version{0};
 };
 }  // namespace posidonia

@@ -86,6 +86,7 @@ class CIncrementalOptimizer
 	void relinearize(int node);
 	bool eliminate(const CPoseGraph& graph, TIncrementalResult& result);
 	std::vector<int> orderOf(const CBayesTree::TTop& top);
+	std::vector<double> nearNewest(const std::vector<int>& order) const;
 	TFactorNormal normalOf(const CPoseGraph& graph, int factor) const;
 	void solve(CPoseGraph& graph, TIncrementalResult& result);
 	void moveNode(CPoseGraph& graph, int node) const;
