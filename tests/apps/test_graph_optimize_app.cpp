@@ -167,7 +167,7 @@ TEST(GraphOptimizeApp, MarginalsAreThoseOfTheDenseInverse)
 	const auto rows = csv(folder / "m.csv");
 	ASSERT_EQ(rows.size(), 120u) << "a header and the free nodes";
 	ASSERT_EQ(rows[0].size(), 25u);
-	CSparseCholesky cholesky;
+	CMultifrontalCholesky cholesky;
 	CNormalEquations system;
 	system.followStructure(app.graph(), cholesky);
 	system.linearize(app.graph());
@@ -187,6 +187,28 @@ TEST(GraphOptimizeApp, MarginalsAreThoseOfTheDenseInverse)
 				std::stod(row[static_cast<size_t>(22 + k)]), std::sqrt(in_map(k, k)),
 				1e-6 * std::sqrt(in_map(k, k)))
 				<< "node " << node << " axis " << k;
+	}
+}
+
+TEST(GraphOptimizeApp, IncrementalEndsAtTheBatchOptimum)
+{
+	const CTempFolder folder;
+	const std::string in = surveyFile(folder, smallSurvey().graph);
+	for (const std::string kernel : {"none", "cauchy", "dcs"}) {
+		CGraphOptimizeApp batch, incremental;
+		runApp(batch, {in, "--robust", kernel, "--weights", folder / "batch.csv"});
+		runApp(
+			incremental,
+			{in, "--robust", kernel, "--solver", "incremental", "--weights", folder / "incremental.csv"});
+		EXPECT_TRUE(incremental.results().solution.converged) << kernel;
+		EXPECT_NEAR(
+			incremental.results().chi2_after, batch.results().chi2_after, 1e-4 * batch.results().chi2_after)
+			<< kernel;
+		const auto expected = csv(folder / "batch.csv"), rows = csv(folder / "incremental.csv");
+		ASSERT_EQ(rows.size(), expected.size()) << kernel;
+		for (size_t k = 1; k < rows.size(); k++)
+			EXPECT_NEAR(std::stod(rows[k][3]), std::stod(expected[k][3]), 0.01)
+				<< kernel << " edge " << k - 1;
 	}
 }
 
@@ -282,6 +304,7 @@ TEST(GraphOptimizeApp, FlagsWithoutEffectAreRefused)
 	EXPECT_HOLDS(refusal({in, "--robust-scale", "3"}), "--robust-scale: has no effect without --robust");
 	EXPECT_HOLDS(refusal({in, "--robust", "huber", "--robust-scale", "0"}), "--robust-scale: must be > 0");
 	EXPECT_HOLDS(refusal({in, "--robust", "huber", "--solver", "levmarq"}), "no robust losses");
+	EXPECT_HOLDS(refusal({in, "--init", "odometry", "--solver", "incremental"}), "--init: has no effect");
 	EXPECT_HOLDS(refusal({in, "--solver", "magic"}), "solver");
 	EXPECT_HOLDS(refusal({in, "-o", in}), "is the input itself");
 	EXPECT_HOLDS(refusal({in, "-o", folder / "out.graph"}), "name it .g2o");

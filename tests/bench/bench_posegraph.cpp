@@ -9,6 +9,7 @@
 #include <posidonia/eval/text_table.h>
 #include <posidonia/posegraph/chi2.h>
 #include <posidonia/posegraph/g2o_file.h>
+#include <posidonia/posegraph/incremental_optimizer.h>
 #include <posidonia/posegraph/sparse_optimizer.h>
 #include <synthetic_graphs.h>
 
@@ -37,8 +38,6 @@ struct TSettings
 	std::string json_file;
 	std::set<int> tables{1, 2, 3, 5};
 };
-
-using TCholesky = CSparseCholesky;
 
 /** Beyond so many nodes MRPT's levmarq takes minutes: it gets few iterations, which tell its speed. */
 constexpr size_t kLargeForMrpt = 5000;
@@ -201,16 +200,16 @@ TStepper batchStepper()
 {
 	struct TState
 	{
-		TCholesky cholesky;
+		CMultifrontalCholesky cholesky;
 		CNormalEquations system;
 	};
 	return [state = std::make_shared<TState>()](CPoseGraph& graph, bool closed) {
 		if (!closed) return;
 		state->system.followStructure(graph, state->cholesky);
 		state->system.linearize(graph);
-		if (!state->cholesky.factorize(state->system.H()))
+		if (!state->cholesky.factorize(state->system.H(), state->system.b()))
 			throw CError("batch step", "H is not positive definite", "");
-		const Eigen::VectorXd& d = state->cholesky.solve(state->system.b());
+		const Eigen::VectorXd& d = state->cholesky.solve();
 		std::vector<Eigen::Isometry3d> poses = graph.poses();
 		for (int column = 0; column < state->system.freeNodeCount(); column++) {
 			auto& T = poses[size_t(state->system.nodeOf(column))];
@@ -220,9 +219,18 @@ TStepper batchStepper()
 	};
 }
 
+TStepper incrementalStepper()
+{
+	return [optimizer = std::make_shared<CIncrementalOptimizer>()](CPoseGraph& graph, bool) {
+		optimizer->update(graph);
+	};
+}
+
 const std::vector<TFollower>& followers()
 {
-	static const std::vector<TFollower> all{{"batch, one Gauss-Newton step a closing", batchStepper, 1000}};
+	static const std::vector<TFollower> all{
+		{"batch, one Gauss-Newton step a closing", batchStepper, 1000},
+		{"incremental", incrementalStepper, 1000000}};
 	return all;
 }
 
@@ -363,18 +371,18 @@ void marginalsTable(int nodes)
 	CPoseGraph graph = survey(nodes).graph;
 	CSparseOptimizer optimizer;
 	optimizer.optimize(graph);
-	TCholesky cholesky;
+	CMultifrontalCholesky cholesky;
 	CNormalEquations system;
 	system.followStructure(graph, cholesky);
 	system.linearize(graph);
 	std::vector<double> factor, all;
 	for (int repetition = 0; repetition < 3; repetition++) {
-		factor.push_back(cpuOf([&] { cholesky.factorize(system.H()); }));
+		factor.push_back(cpuOf([&] { cholesky.factorize(system.H(), system.b()); }));
 		const CMarginals marginals = optimizer.marginals(graph);
 		double trace = 0;
 		all.push_back(cpuOf([&] {
-			for (int n = 0; n < nodes; n++)
-				trace += marginals.covarianceOf(n).trace();
+			for (const Matrix6d& covariance : marginals.allCovariances())
+				trace += covariance.trace();
 		}));
 		if (!(trace > 0)) throw CError("marginals", "no covariance at all", "");
 	}

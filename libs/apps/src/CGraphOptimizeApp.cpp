@@ -62,6 +62,8 @@ void refuseFlagsWithoutEffect(const CGraphOptimizeApp::TParams& params, bool sca
 	if (scale_given && !robust)
 		throw CUsageError("--robust-scale", "has no effect without --robust", "leave it out");
 	if (!(params.robust.scale > 0)) throw CUsageError("--robust-scale", "must be > 0", "give another number");
+	if (params.solver == "incremental" && params.start != "file")
+		throw CUsageError("--init", "has no effect with --solver incremental", "leave it out");
 	if (robust && params.solver == "levmarq")
 		throw CUsageError("--robust", "MRPT's levmarq has no robust losses", "use --solver batch");
 }
@@ -114,7 +116,9 @@ bool CGraphOptimizeApp::initialize(int argc, const char* const* argv)
 	TCLAP::OptionalUnlabeledTracker::alreadyOptional() = false;
 	TCLAP::UnlabeledValueArg<std::string> input("graph", "The graph to optimise", false, "", "IN.g2o", cmd);
 	CChoiceFlag solver(
-		"solver", "batch: sparse Cholesky, all nodes at once; levmarq: MRPT's own, for comparison",
+		"solver",
+		"batch: all nodes at once; incremental: node by node in the order of ids, then exact; levmarq: "
+		"MRPT's own, for comparison",
 		graphSolverNames(), cmd);
 	CChoiceFlag start(
 		"init", "Start poses: the file's, or composed along the odometry", graphStartNames(), cmd);

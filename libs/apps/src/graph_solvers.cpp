@@ -1,10 +1,13 @@
+#include <posidonia/apps/graph_replay.h>
 #include <posidonia/apps/graph_solvers.h>
 #include <posidonia/apps/mrpt_levmarq.h>
 #include <posidonia/base/error.h>
 #include <posidonia/posegraph/chi2.h>
+#include <posidonia/posegraph/incremental_optimizer.h>
 #include <posidonia/posegraph/spanning_tree.h>
 
 #include <cstdlib>
+#include <map>
 
 namespace posidonia
 {
@@ -32,10 +35,12 @@ std::string startFromOdometry(CPoseGraph& graph)
 
 void setLosses(CPoseGraph& graph, const TRobustChoice& robust)
 {
+	static const std::map<std::string, ERobustLoss> kinds{
+		{"huber", ERobustLoss::Huber}, {"cauchy", ERobustLoss::Cauchy}, {"dcs", ERobustLoss::Dcs}};
 	if (robust.kernel == "none") return;
-	const auto kind = robust.kernel == "huber" ? ERobustLoss::Huber : ERobustLoss::Cauchy;
+	const TRobustLoss loss{kinds.at(robust.kernel), robust.scale};
 	for (size_t k = 0; k < graph.edgeCount(); k++)
-		if (isLoop(graph.edges()[k])) graph.setLoss(static_cast<int>(k), {kind, robust.scale});
+		if (isLoop(graph.edges()[k])) graph.setLoss(static_cast<int>(k), loss);
 }
 
 TGraphSolution solveBatch(CPoseGraph& graph, const TOptimizerOptions& options, const TRobustChoice& robust)
@@ -43,6 +48,25 @@ TGraphSolution solveBatch(CPoseGraph& graph, const TOptimizerOptions& options, c
 	setLosses(graph, robust);
 	TOptimizerResult result = CSparseOptimizer(options).optimize(graph);
 	return {toString(result.status), result.converged(), result.iterations, std::move(result.edge_weights)};
+}
+
+/** As if it had arrived node by node, and exact at the end. */
+TGraphSolution solveIncremental(
+	CPoseGraph& graph, const TOptimizerOptions& options, const TRobustChoice& robust)
+{
+	setLosses(graph, robust);
+	CPoseGraph growing;
+	CGraphReplay arrival(graph);
+	CIncrementalOptimizer optimizer({}, options);
+	while (!arrival.done())
+		if (arrival.addNext(growing) || arrival.done()) optimizer.update(growing);
+	const TOptimizerResult result = optimizer.refine(growing);
+	graph.setPoses(growing.poses());
+	TGraphSolution out{toString(result.status), result.converged(), result.iterations, {}};
+	out.edge_weights.resize(graph.edgeCount());
+	for (size_t k = 0; k < graph.edgeCount(); k++)
+		out.edge_weights[static_cast<size_t>(arrival.edgeOrder()[k])] = result.edge_weights[k];
+	return out;
 }
 
 TGraphSolution solveLevMarq(CPoseGraph& graph, const TOptimizerOptions& options)
@@ -70,7 +94,7 @@ std::string startGraph(CPoseGraph& graph, const std::string& start)
 
 const std::vector<std::string>& robustKernelNames()
 {
-	static const std::vector<std::string> names{"none", "huber", "cauchy"};
+	static const std::vector<std::string> names{"none", "huber", "cauchy", "dcs"};
 	return names;
 }
 
@@ -81,7 +105,7 @@ bool isLoop(const TPoseEdge& edge)
 
 const std::vector<std::string>& graphSolverNames()
 {
-	static const std::vector<std::string> names{"batch", "levmarq"};
+	static const std::vector<std::string> names{"batch", "incremental", "levmarq"};
 	return names;
 }
 
@@ -89,17 +113,14 @@ TGraphSolution solveGraph(
 	CPoseGraph& graph, const std::string& solver, const TOptimizerOptions& options,
 	const TRobustChoice& robust)
 {
-	return solver == "levmarq" ? solveLevMarq(graph, options) : solveBatch(graph, options, robust);
+	if (solver == "levmarq") return solveLevMarq(graph, options);
+	return solver == "incremental" ? solveIncremental(graph, options, robust)
+								   : solveBatch(graph, options, robust);
 }
 
 std::vector<Matrix6d> marginalsOfAllNodes(const CPoseGraph& graph)
 {
 	CSparseOptimizer optimizer;
-	const CMarginals marginals = optimizer.marginals(graph);
-	std::vector<Matrix6d> all;
-	all.reserve(graph.nodeCount());
-	for (size_t n = 0; n < graph.nodeCount(); n++)
-		all.push_back(marginals.covarianceOf(static_cast<int>(n)));
-	return all;
+	return optimizer.marginals(graph).allCovariances();
 }
 }  // namespace posidonia

@@ -2,7 +2,6 @@
 #include <posidonia/posegraph/bayes_tree.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "simd/front_kernels.h"
 
@@ -39,12 +38,12 @@ void CBayesTree::touchWithoutRest()
 			if (!m_touched_flag[child] && !m_cliques[child].has_rest) touch(child);
 }
 
-/** Rests are as large as L again; they matter only where something is touched. Of cliques that have not been touched for
- * long only so many are kept that each stands for at least as many pivots as its separator has: finding the others
- * again costs about one dense elimination of that size. */
+/** Rests are as large as L again; they matter only where something is touched. Of cliques that have not been
+ * touched for long only so many are kept that each stands for at least as many pivots as its separator has:
+ * finding the others again costs about one dense elimination of that size. */
 void CBayesTree::dropRests()
 {
-	static const size_t kHot = getenv("HOT") ? size_t(atoi(getenv("HOT"))) : 200;
+	constexpr size_t kHot = 200;  // updates
 	for (; !m_by_age.empty() && m_by_age.front().second + kHot < m_version; m_by_age.pop_front()) {
 		TClique& clique = m_cliques[m_by_age.front().first];
 		if (clique.made != m_by_age.front().second || clique.parent < 0) continue;
@@ -89,8 +88,7 @@ CBayesTree::TTop CBayesTree::takeTop()
 
 int CBayesTree::eliminate(
 	const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
-	const std::function<TFactorNodes(int)>& nodes_of,
-	const TNormalOf& normal_of)
+	const std::function<TFactorNodes(int)>& nodes_of, const TNormalOf& normal_of)
 {
 	m_version++;
 	for (const int node : order)
@@ -121,7 +119,7 @@ int CBayesTree::eliminate(
 			m_cliques[orphan].separator.data(),
 			m_cliques[orphan].separator.data() + m_cliques[orphan].separator.size());
 
-	static const int kMaxPivots = getenv("MP") ? atoi(getenv("MP")) : 8;  // a touched pivot takes those of its clique with it
+	constexpr int kMaxPivots = 16;	// a touched pivot takes those of its clique with it
 	m_fresh = newCliques(eliminationForest(int(order.size()), sets, {late, kMaxPivots}), order);
 	for (const int factor : top.factors)
 		placeFactor(factor, nodes_of(factor));
@@ -200,8 +198,8 @@ void CBayesTree::adoptOrphan(int orphan)
 CCliqueFactor::TClique CBayesTree::clique(int c) const
 {
 	const TClique& clique = m_cliques[c];
-	return {clique.parent,		  clique.size(),	   int(clique.pivots.size()), clique.pivots.data(),
-			clique.panel.data(), clique.rows.data()};
+	return {clique.parent,		  clique.size(),	   int(clique.pivots.size()),
+			clique.pivots.data(), clique.panel.data(), clique.rows.data()};
 }
 
 std::vector<int> CBayesTree::parentsFirst() const

@@ -41,8 +41,8 @@ struct TFront
 	}
 };
 
-/** A child's rest into its parent's front, when the parent's order of the separator is another than the child's; only
- * the columns of the panel, or only those of the rest. */
+/** A child's rest into its parent's front, when the parent's order of the separator is another than the
+ * child's; only the columns of the panel, or only those of the rest. */
 void addPermuted(const double* U, int blocks, const int* rows, const TFront& front, bool panel)
 {
 	using TBlock = Eigen::Map<const Matrix6d, 0, Eigen::OuterStride<>>;
@@ -209,8 +209,8 @@ void CBayesTree::solveClique(const TClique& clique, std::vector<Vector6d>& d)
 	take(clique, d);
 }
 
-/** Does a coordinate change by more than the tolerance? When none does, the old solution is kept, so that small
- * changes cannot add up unseen. */
+/** Does a coordinate change by more than the tolerance? When none does, the old solution is kept, so that
+ * small changes cannot add up unseen. */
 bool CBayesTree::wouldChange(const TClique& clique, const Vector6d& tolerance, const std::vector<Vector6d>& d)
 {
 	backSubstitute(clique, d);

@@ -20,7 +20,8 @@ double frontTime(double pivots, double separator)
 {
 	constexpr double kCall = 4000, kEntry = 6;	// of one multiply-add; flat round these
 	const double p = 6 * pivots, s = 6 * separator;
-	const double entries = p * (p + 1) / 2 + p * s + s * s;	 // the separator's: cleared here, summed in the parent
+	const double entries =
+		p * (p + 1) / 2 + p * s + s * s;  // the separator's: cleared here, summed in the parent
 	return kCall + kEntry * entries + p * p * p / 6 + p * p * s / 2 + p * s * s / 2;
 }
 
@@ -49,7 +50,8 @@ class CSymbolicElimination
 		by.members.resize(by.starts[n]);
 		std::vector<int> next(by.starts.begin(), by.starts.end() - 1);
 		for (size_t k = 0; k < sets.size(); k++)
-			if (sets.starts[k] < sets.starts[k + 1]) by.members[next[sets.members[sets.starts[k]]]++] = int(k);
+			if (sets.starts[k] < sets.starts[k + 1])
+				by.members[next[sets.members[sets.starts[k]]]++] = int(k);
 		return by;
 	}
 

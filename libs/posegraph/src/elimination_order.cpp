@@ -19,7 +19,8 @@ struct TPattern
 {
 	std::vector<int> starts, rows;
 
-	TPattern(int n, const std::vector<std::array<int, 2>>& pairs) : starts(size_t(n) + 1, 0), rows(pairs.size() + 1)
+	TPattern(int n, const std::vector<std::array<int, 2>>& pairs)
+		: starts(size_t(n) + 1, 0), rows(pairs.size() + 1)
 	{
 		for (const auto& pair : pairs)
 			starts[size_t(pair[0]) + 1]++;
@@ -36,7 +37,8 @@ std::vector<int> minimumDegreeOrder(int n, const std::vector<std::array<int, 2>>
 {
 	const TPattern pattern(n, pairs);
 	std::vector<int> order(n);
-	if (n > 0) check(amd_order(n, pattern.starts.data(), pattern.rows.data(), order.data(), nullptr, nullptr));
+	if (n > 0)
+		check(amd_order(n, pattern.starts.data(), pattern.rows.data(), order.data(), nullptr, nullptr));
 	return order;
 }
 

@@ -44,7 +44,8 @@ void CSpace::release(int owner)
 }
 
 void appendRowsInParent(
-	const TEliminationForest::TClique& clique, const TEliminationForest::TClique& parent, std::vector<int>& rows)
+	const TEliminationForest::TClique& clique, const TEliminationForest::TClique& parent,
+	std::vector<int>& rows)
 {
 	auto at = parent.separator.begin();
 	for (const int j : clique.separator) {

@@ -28,9 +28,11 @@ class CSpace
 	size_t m_size{0};
 };
 
-/** For each block of a clique's separator, which block of the parent's front it is; the parent's size at the end. */
+/** For each block of a clique's separator, which block of the parent's front it is; the parent's size at the
+ * end. */
 void appendRowsInParent(
-	const TEliminationForest::TClique& clique, const TEliminationForest::TClique& parent, std::vector<int>& rows);
+	const TEliminationForest::TClique& clique, const TEliminationForest::TClique& parent,
+	std::vector<int>& rows);
 
 /** Multiply-adds of the clique and all below it, for each clique. */
 std::vector<double> subtreeWork(const TEliminationForest& forest);
@@ -38,6 +40,7 @@ std::vector<double> subtreeWork(const TEliminationForest& forest);
 /** The first clique of each clique's subtree, which is consecutive. */
 std::vector<int> firstOfSubtree(const TEliminationForest& forest);
 
-/** Adds the blocks of a column of H to block column J of a front. @param rows of each block: its block row there */
+/** Adds the blocks of a column of H to block column J of a front. @param rows of each block: its block row
+ * there */
 void addColumn(const CBlockMatrix& H, int column, const int* rows, int J, double* to, int ld);
 }  // namespace posidonia

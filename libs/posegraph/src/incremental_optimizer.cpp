@@ -2,7 +2,6 @@
 #include <posidonia/posegraph/incremental_optimizer.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 
 namespace posidonia
@@ -130,8 +129,7 @@ bool CIncrementalOptimizer::eliminate(const CPoseGraph& graph, TIncrementalResul
 	return failed < 0;
 }
 
-/** Minimum degree, with the newest poses near the root, where the next ones will be joined on, and error variables,
- * which are joined with everything, after all. */
+/** Minimum degree from ring to ring, the outermost first. */
 std::vector<int> CIncrementalOptimizer::orderOf(const CBayesTree::TTop& top)
 {
 	const int n = int(top.nodes.size());
@@ -148,36 +146,44 @@ std::vector<int> CIncrementalOptimizer::orderOf(const CBayesTree::TTop& top)
 		couple(m_factor_nodes[factor].node, m_factor_nodes[factor].count);
 	for (const int orphan : top.orphans)
 		couple(m_tree.separatorOf(orphan).data(), int(m_tree.separatorOf(orphan).size()));
-	// Rings round the newest pose: the next nodes are joined on in the innermost, seldom further out, so that the
-	// outer ones, which make larger fronts, are seldom touched.
-	std::vector<double> late = nearNewest(top.nodes);
-	std::vector<int> by_nearness(n);
-	std::iota(by_nearness.begin(), by_nearness.end(), 0);
-	std::sort(by_nearness.begin(), by_nearness.end(), [&](int a, int b) {
-		return late[a] != late[b] ? late[a] > late[b] : top.nodes[a] > top.nodes[b];
-	});
-	static const double kGrowth = getenv("GR") ? atof(getenv("GR")) : 4;
-	int rings = 1;
-	for (double size = m_options.newest_last; size < n; size *= kGrowth)
-		rings++;
-	std::vector<int> groups(n, 0);
-	double size = m_options.newest_last;
-	for (int k = 0, ring = rings - 1; k < n; k++) {
-		if (k >= size) ring--, size *= kGrowth;
-		groups[by_nearness[k]] = ring;
-	}
-	for (int k = 0; k < n; k++)
-		if (m_kinds[top.nodes[k]] == ENodeKind::ErrorVariable || top.nodes[k] == int(m_d.size()) - 1)
-			groups[k] = rings;
-	if (n <= rings)  // CAMD wants groups below n
-		std::fill(groups.begin(), groups.end(), 0);
-	std::vector<int> order = constrainedMinimumDegreeOrder(n, m_pairs, groups);
+	std::vector<int> order = constrainedMinimumDegreeOrder(n, m_pairs, ringsOf(top.nodes));
 	for (int& k : order)
 		k = top.nodes[k];
 	return order;
 }
 
-/** Where the next nodes are likely to be joined on: the nearer to the newest pose, the sooner; error variables at once. */
+/** Rings round the newest pose, the innermost with the highest number, each kRingGrowth times as large as the
+ * one inside. The next nodes are joined on in the innermost, seldom further out: so the outer ones, whose
+ * fronts are larger, are seldom eliminated anew. The newest node itself comes after all rings, as do error
+ * variables, which are joined with everything. */
+std::vector<int> CIncrementalOptimizer::ringsOf(const std::vector<int>& nodes) const
+{
+	constexpr double kRingGrowth = 4;
+	const int n = int(nodes.size());
+	const std::vector<double> late = nearNewest(nodes);
+	std::vector<int> by_nearness(n);
+	std::iota(by_nearness.begin(), by_nearness.end(), 0);
+	std::sort(by_nearness.begin(), by_nearness.end(), [&](int a, int b) {
+		return late[a] != late[b] ? late[a] > late[b] : nodes[a] > nodes[b];
+	});
+	int rings = 1;
+	for (double size = m_options.inner_ring; size < n; size *= kRingGrowth)
+		rings++;
+	std::vector<int> ring_of(n, 0);
+	if (n <= rings) return ring_of;	 // CAMD wants groups below n
+	double size = m_options.inner_ring;
+	for (int k = 0, ring = rings - 1; k < n; k++) {
+		if (k >= size) ring--, size *= kRingGrowth;
+		ring_of[by_nearness[k]] = ring;
+	}
+	for (int k = 0; k < n; k++)
+		if (m_kinds[nodes[k]] == ENodeKind::ErrorVariable || nodes[k] == int(m_d.size()) - 1)
+			ring_of[k] = rings;
+	return ring_of;
+}
+
+/** Where the next nodes are likely to be joined on: the nearer to the newest pose, the sooner; error
+ * variables at once. */
 std::vector<double> CIncrementalOptimizer::nearNewest(const std::vector<int>& order) const
 {
 	int newest = int(m_d.size()) - 1;
@@ -187,7 +193,9 @@ std::vector<double> CIncrementalOptimizer::nearNewest(const std::vector<int>& or
 	std::vector<double> late;
 	for (const int node : order)
 		late.push_back(
-			m_kinds[node] == ENodeKind::ErrorVariable ? 1 : -(m_linearization.poses[node].translation() - at).norm());
+			m_kinds[node] == ENodeKind::ErrorVariable
+				? 1
+				: -(m_linearization.poses[node].translation() - at).norm());
 	return late;
 }
 

@@ -72,7 +72,8 @@ CMarginals::THalfColumns CMarginals::halfColumns(int node) const
 		const int m = clique.blocks, p = clique.pivots;
 		if (out.cliques.empty()) {
 			r.setZero(6 * m, 6);
-			r.middleRows<6>(6 * (std::find(clique.nodes, clique.nodes + p, node) - clique.nodes)).setIdentity();
+			r.middleRows<6>(6 * (std::find(clique.nodes, clique.nodes + p, node) - clique.nodes))
+				.setIdentity();
 		}
 		for (int J = 0; J < p; J++) {
 			const Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>> L(

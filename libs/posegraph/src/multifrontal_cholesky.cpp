@@ -95,8 +95,8 @@ void CMultifrontalCholesky::chooseTasks()
 	}
 }
 
-/** Where each clique leaves its rest until the parent has summed it: found once, since the order of events is known.
- * Tasks share nothing, as they may run at the same time. */
+/** Where each clique leaves its rest until the parent has summed it: found once, since the order of events is
+ * known. Tasks share nothing, as they may run at the same time. */
 void CMultifrontalCholesky::placeRests()
 {
 	m_rest_at.assign(m_forest.cliques.size(), 0);
@@ -164,7 +164,8 @@ int CMultifrontalCholesky::eliminate(int c, const CBlockMatrix& H, const Eigen::
 	m_kernels.update(L, clique.size(), clique.pivots, rest(c));
 	for (const int child : clique.children)
 		m_kernels.addToRest(
-			rest(child), m_forest.cliques[child].left(), rowsInParent(child), rest(c), clique.size(), clique.pivots);
+			rest(child), m_forest.cliques[child].left(), rowsInParent(child), rest(c), clique.size(),
+			clique.pivots);
 	return failed;
 }
 

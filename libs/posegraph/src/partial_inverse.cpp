@@ -11,7 +11,8 @@ namespace
 using TConstColumn = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 using TColumn = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
-/** A clique's part of the inverse, square and symmetric, with room after the last column for a whole vector. */
+/** A clique's part of the inverse, square and symmetric, with room after the last column for a whole vector.
+ */
 struct TPart
 {
 	int ld{0};
@@ -56,7 +57,8 @@ class CPartialInverse
 		for (int last = clique.pivots; last > 0; last -= kGroup)
 			addGroup(clique, std::max(0, last - kGroup), last, part);
 		for (int J = 0; J < clique.pivots; J++)
-			blocks[clique.nodes[J]] = TConstColumn(part.at(6 * J, 6 * J), 6, 6, Eigen::OuterStride<>(part.ld));
+			blocks[clique.nodes[J]] =
+				TConstColumn(part.at(6 * J, 6 * J), 6, 6, Eigen::OuterStride<>(part.ld));
 		if (part.waiting == 0) part = {};
 	}
 
@@ -80,10 +82,11 @@ class CPartialInverse
 	 * S_BG = -S_BB X and S_GG = (L_GG L_GG^T)^-1 - X^T S_BG. */
 	void addGroup(const CCliqueFactor::TClique& clique, int first, int last, TPart& part)
 	{
-		const int groups = last - first, g = 6 * groups, n = 6 * (clique.blocks - last), width = m_kernels.width;
+		const int groups = last - first, g = 6 * groups, n = 6 * (clique.blocks - last),
+				  width = m_kernels.width;
 		readGroup(clique, first, last);
-		const Eigen::MatrixXd inverse =
-			m_L_GG.topRows(g).leftCols(g).triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(g, g));
+		const Eigen::MatrixXd inverse = m_L_GG.topRows(g).leftCols(g).triangularView<Eigen::Lower>().solve(
+			Eigen::MatrixXd::Identity(g, g));
 		const int ld = n + width;
 		m_minus_X.resize(size_t(ld) * size_t(g) + size_t(width));
 		packGroups(inverse.data(), g, g, groups, 1, m_packed);
@@ -109,8 +112,8 @@ class CPartialInverse
 		m_product.resize(size_t(ld_product) * size_t(g) + size_t(m_kernels.width));
 		for (int q = 0; q < groups; q++)  // the vector beyond six rows is overwritten by the next
 			m_kernels.multiply(
-				m_packed.data() + size_t(6 * q) * size_t(n), 6, 6, n, m_packed_S.data(), m_product.data() + 6 * q,
-				ld_product, groups);
+				m_packed.data() + size_t(6 * q) * size_t(n), 6, 6, n, m_packed_S.data(),
+				m_product.data() + 6 * q, ld_product, groups);
 		m_S_GG += TConstColumn(m_product.data(), g, g, Eigen::OuterStride<>(ld_product));
 	}
 

@@ -168,6 +168,18 @@ int CPoseGraph::addPrior(const TPosePrior& prior)
 	return index;
 }
 
+CPoseGraph CPoseGraph::withEdges(const std::vector<int>& indices) const
+{
+	CPoseGraph out;
+	out.m_states = m_states;
+	out.m_kinds = m_kinds;
+	out.m_fixed = m_fixed;
+	out.m_priors = m_priors;
+	for (const int k : indices)
+		out.m_edges.push_back(edge(k));
+	return out;
+}
+
 void CPoseGraph::setEdge(int index, const TPoseEdge& other)
 {
 	const TPoseEdge& old = edge(index);

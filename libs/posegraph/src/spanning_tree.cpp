@@ -1,8 +1,9 @@
-#include <posidonia/base/error.h>
 #include <posidonia/posegraph/spanning_tree.h>
 
 #include <deque>
 #include <numeric>
+
+#include "anchors.h"
 
 namespace posidonia
 {
@@ -24,34 +25,8 @@ TNeighbours edgesAtNodes(const CPoseGraph& graph, const std::vector<int>& edge_i
 Eigen::Isometry3d acrossEdge(
 	const CPoseGraph& graph, const TPoseEdge& edge, int node, const Eigen::Isometry3d& T_map_node)
 {
-	const Eigen::Isometry3d T_from_to =
-		edge.error_variable < 0 ? edge.T_from_to
-								: correctedMeasurement(edge, graph.errorVariable(edge.error_variable));
+	const Eigen::Isometry3d T_from_to = presentMeasurement(graph, edge);
 	return edge.from == node ? T_map_node * T_from_to : T_map_node * T_from_to.inverse();
-}
-
-/** The nodes whose pose is known beforehand: fixed ones, and those with a full-pose prior, put there. */
-std::vector<char> anchors(const CPoseGraph& graph, std::vector<Eigen::Isometry3d>& poses)
-{
-	std::vector<char> anchored(graph.nodeCount(), 0);
-	for (const TPosePrior& prior : graph.priors()) {
-		if (prior.kind != EPriorKind::FullPose || graph.isFixed(prior.node) || anchored[prior.node]) continue;
-		poses[prior.node] = prior.T_map_node;
-		anchored[prior.node] = 1;
-	}
-	for (int node = 0; node < int(graph.nodeCount()); node++)
-		anchored[node] |= graph.isFixed(node);
-	return anchored;
-}
-
-void requireReached(const CPoseGraph& graph, const std::vector<char>& reached)
-{
-	for (int node = 0; node < int(graph.nodeCount()); node++)
-		if (!reached[node] && graph.nodeKind(node) == ENodeKind::Pose)
-			throw CError(
-				"node " + std::to_string(node),
-				"no chain of the given edges joins it to a fixed node or full-pose prior",
-				"fix a node of its component or add the missing edge");
 }
 }  // namespace
 

@@ -32,7 +32,8 @@ const TFrontKernels& choose()
 		names += std::string(names.empty() ? "" : ", ") + k->name;
 	}
 	throw CError(
-		"POSIDONIA_SIMD", "'" + std::string(wanted) + "' is not for this CPU", "leave it empty or use one of " + names);
+		"POSIDONIA_SIMD", "'" + std::string(wanted) + "' is not for this CPU",
+		"leave it empty or use one of " + names);
 }
 }  // namespace
 

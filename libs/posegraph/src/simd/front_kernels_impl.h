@@ -1,6 +1,6 @@
 // Included once by each front_kernels_<cpu>.cpp, which is compiled for that CPU and defines KERNELS_WIDTH and
-// KERNELS_NAME. Nothing of the standard library or Eigen may be included here: an inline function compiled for a newer
-// CPU could be the copy that the linker keeps for everybody.
+// KERNELS_NAME. Nothing of the standard library or Eigen may be included here: an inline function compiled
+// for a newer CPU could be the copy that the linker keeps for everybody.
 #include "front_kernels.h"
 
 extern "C" double sqrt(double) noexcept;
@@ -29,8 +29,8 @@ inline int rowsInMemory(int m, int J)
 /** Block columns of L that are summed in one go: their rows stay in the cache, as does the packed factor. */
 constexpr int kChunk = 32;
 
-/** C(0 .. NV W - 1, 6 columns) -= A B^T (FRESH: C = -A B^T) over the block columns [first, last) of a panel of m blocks. A's rows begin
- * at scalar row `row` of the front; B is packed, 6 numbers a scalar column. */
+/** C(0 .. NV W - 1, 6 columns) -= A B^T (FRESH: C = -A B^T) over the block columns [first, last) of a panel
+ * of m blocks. A's rows begin at scalar row `row` of the front; B is packed, 6 numbers a scalar column. */
 template <int NV, bool FRESH>
 inline void tile(
 	double* C, int ldc, const double* panel, int m, int row, int first, int last, const double* packed)
@@ -81,8 +81,8 @@ inline void subtractChunk(
 		tile<1, FRESH>(C + r, ldc, panel, m, 6 * J + r, first, last, packed);
 }
 
-/** C -= (rows from block row J on) (block row J)^T over the panel's first `columns` block columns; FRESH: C is
- * written, not read. */
+/** C -= (rows from block row J on) (block row J)^T over the panel's first `columns` block columns; FRESH: C
+ * is written, not read. */
 template <bool FRESH>
 inline void subtractProducts(double* C, int ldc, const double* panel, int m, int J, int columns)
 {
@@ -167,8 +167,8 @@ inline void add(double* to, const double* from, int n)
 		to[r] += from[r];
 }
 
-/** Block column a of a child's U into block column J = rows[a] of a front, in runs of neighbouring blocks; the
- * right-hand side ends the last. */
+/** Block column a of a child's U into block column J = rows[a] of a front, in runs of neighbouring blocks;
+ * the right-hand side ends the last. */
 inline void addColumn(const double* U, int blocks, const int* rows, int a, double* to, int ld_to)
 {
 	const double* from = U + blockColumnOffset(blocks, a, W);
@@ -234,7 +234,8 @@ inline void multiplyChunk(
 				A + r, lda, chunk, X + 6 * g * size_t(n), C + r + 6 * g * size_t(ldc), ldc);
 	for (; r < rows; r += W)
 		for (int g = 0; g < groups; g++)
-			multiplyTile<1, FRESH>(A + r, lda, chunk, X + 6 * g * size_t(n), C + r + 6 * g * size_t(ldc), ldc);
+			multiplyTile<1, FRESH>(
+				A + r, lda, chunk, X + 6 * g * size_t(n), C + r + 6 * g * size_t(ldc), ldc);
 }
 
 void multiply(const double* A, int lda, int rows, int n, const double* X, double* C, int ldc, int groups)
@@ -293,5 +294,6 @@ void backSubstitute(const double* panel, int m, int pivots, double* x)
 }  // namespace
 
 extern const TFrontKernels KERNELS_TABLE;
-const TFrontKernels KERNELS_TABLE{KERNELS_NAME, W, factorize, update, addToPanel, addToRest, backSubstitute, multiply};
+const TFrontKernels KERNELS_TABLE{KERNELS_NAME, W,		   factorize,	   update,
+								  addToPanel,	addToRest, backSubstitute, multiply};
 }  // namespace posidonia

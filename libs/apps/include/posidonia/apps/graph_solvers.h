@@ -33,7 +33,8 @@ const std::vector<std::string>& robustKernelNames();
 bool isLoop(const TPoseEdge& edge);
 
 const std::vector<std::string>& graphSolverNames();
-/** Only `batch` knows robust kernels; they are for the loops, the odometry is trusted. Throws CError. */
+/** `incremental` plays the graph node by node (graph_replay.h): only the fixed nodes' poses are looked at.
+ * Robust kernels are for the loops, the odometry is trusted; `levmarq` knows none. Throws CError. */
 TGraphSolution solveGraph(
 	CPoseGraph& graph, const std::string& solver, const TOptimizerOptions& options,
 	const TRobustChoice& robust);

@@ -13,12 +13,12 @@ namespace posidonia
 {
 struct TFrontKernels;
 
-/** The eliminated graph as a tree of cliques (Kaess et al. 2012), each with its columns of L and with what its subtree
- * leaves to the parent. A change touches the cliques on the way to the root; these are taken out and eliminated anew,
- * in a new order, while the subtrees that hung on them (orphans) are only summed again.
+/** The eliminated graph as a tree of cliques (Kaess et al. 2012), each with its columns of L and with what
+ * its subtree leaves to the parent. A change touches the cliques on the way to the root; these are taken out
+ * and eliminated anew, in a new order, while the subtrees that hung on them (orphans) are only summed again.
  *
- * Nodes and factors are numbers of the caller's. Everything is in the order of calls: the same calls give the same
- * bytes. */
+ * Nodes and factors are numbers of the caller's. Everything is in the order of calls: the same calls give the
+ * same bytes. */
 class CBayesTree : public CCliqueFactor
 {
    public:
@@ -44,16 +44,16 @@ class CBayesTree : public CCliqueFactor
 
 	TTop takeTop();
 
-	/** Eliminates the top anew. @param order of its nodes; @param late of each of them in this order: the higher, the
-	 * sooner it will be touched again; @param nodes_of the nodes of each factor that are not fixed
+	/** Eliminates the top anew. @param order of its nodes; @param late of each of them in this order: the
+	 * higher, the sooner it will be touched again; @param nodes_of the nodes of each factor that are not
+	 * fixed
 	 * @return -1, or the node where H is not positive definite; the tree must then be cleared */
 	int eliminate(
 		const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
-		const std::function<TFactorNodes(int)>& nodes_of,
-		const TNormalOf& normal_of);
+		const std::function<TFactorNodes(int)>& nodes_of, const TNormalOf& normal_of);
 
-	/** Solution of the cliques made by the last eliminate(), and further down wherever a coordinate changes by more than
-	 * `tolerance`. Returns the nodes whose solution changed. @param d of every node */
+	/** Solution of the cliques made by the last eliminate(), and further down wherever a coordinate changes
+	 * by more than `tolerance`. Returns the nodes whose solution changed. @param d of every node */
 	const std::vector<int>& solve(const Vector6d& tolerance, std::vector<Vector6d>& d);
 
 	void clear();
@@ -74,14 +74,16 @@ class CBayesTree : public CCliqueFactor
 	{
 		std::vector<int> pivots, separator;	 ///< nodes, in order of elimination
 		std::vector<int> factors, children;
-		std::vector<int> rows;	///< of the separator's blocks in the parent's front; the parent's size at the end
+		std::vector<int>
+			rows;  ///< of the separator's blocks in the parent's front; the parent's size at the end
 		bool rows_ascend{true};
 		int parent{-1};
 		double work{0};
-		size_t made{0};	   ///< the version that it was made at
+		size_t made{0};		///< the version that it was made at
 		int kept_below{0};	///< pivots of it and of cliques below whose rests were dropped
 		CLargeBuffer panel;
-		CLargeBuffer rest;	///< what it leaves to the parent; may be dropped, and is then found again by elimination
+		CLargeBuffer
+			rest;  ///< what it leaves to the parent; may be dropped, and is then found again by elimination
 		bool has_rest{false};
 
 		int left() const { return int(separator.size()); }
@@ -105,12 +107,12 @@ class CBayesTree : public CCliqueFactor
 
 	const TFrontKernels* m_kernels;
 	std::vector<TClique> m_cliques;
-	std::vector<int> m_unused;			 ///< slots of m_cliques
-	std::vector<char> m_touched_flag;	 ///< of each slot
+	std::vector<int> m_unused;		   ///< slots of m_cliques
+	std::vector<char> m_touched_flag;  ///< of each slot
 	std::vector<int> m_touched;
 	double m_touched_work{0}, m_whole_work{0};
-	std::vector<int> m_clique_of;		   ///< of each node
-	std::vector<int64_t> m_rank;		   ///< of each node: its place in the order of elimination
+	std::vector<int> m_clique_of;  ///< of each node
+	std::vector<int64_t> m_rank;   ///< of each node: its place in the order of elimination
 	int64_t m_next_rank{0};
 	std::vector<int> m_clique_of_factor;
 	std::vector<int> m_fresh;			   ///< cliques of the last eliminate(), children first

@@ -5,17 +5,19 @@
 
 namespace posidonia
 {
-/** L of an eliminated graph as its cliques hold it, whoever eliminated it: what marginals are computed from. */
+/** L of an eliminated graph as its cliques hold it, whoever eliminated it: what marginals are computed from.
+ */
 class CCliqueFactor
 {
    public:
 	struct TClique
 	{
-		int parent;					///< -1: a root
-		int blocks, pivots;			///< the front's, and of them those eliminated here
-		const int* nodes;			///< of the pivots
-		const double* panel;		///< simd/front_kernels.h
-		const int* rows_in_parent;	///< for each block after the pivots, which block of the parent's front it is
+		int parent;			  ///< -1: a root
+		int blocks, pivots;	  ///< the front's, and of them those eliminated here
+		const int* nodes;	  ///< of the pivots
+		const double* panel;  ///< simd/front_kernels.h
+		const int*
+			rows_in_parent;	 ///< for each block after the pivots, which block of the parent's front it is
 	};
 
 	virtual ~CCliqueFactor() = default;

@@ -18,9 +18,9 @@ struct TVariableSets
 	}
 };
 
-/** Cliques of variables that are eliminated together (supernodes, the nodes of a Bayes tree), children before their
- * parents. A clique's pivots are consecutive in the elimination order; its separator are the variables eliminated
- * later that its pivots are coupled with once all before them are gone. */
+/** Cliques of variables that are eliminated together (supernodes, the nodes of a Bayes tree), children before
+ * their parents. A clique's pivots are consecutive in the elimination order; its separator are the variables
+ * eliminated later that its pivots are coupled with once all before them are gone. */
 struct TEliminationForest
 {
 	struct TClique
@@ -42,15 +42,16 @@ struct TEliminationForest
 /** How a forest is cut and ordered beyond what the fill asks for. */
 struct TForestWishes
 {
-	/** Of each variable, or empty: within a clique, where any order will do, pivots of a higher number come last, so
-	 * that a change to one of them touches little. */
+	/** Of each variable, or empty: within a clique, where any order will do, pivots of a higher number come
+	 * last, so that a change to one of them touches little. */
 	std::vector<double> late;
 	int max_pivots{1 << 30};  ///< Larger cliques are cut into chains
 };
 
-/** The forest in which variables 0 .. n-1, already in a fill-reducing order, are eliminated. The order is changed to
- * an equivalent one in which each clique's pivots are neighbours (a postorder). Cliques are joined, at the price of
- * some zeros in the factor, wherever a model of the time for eliminating fronts says that this pays.
+/** The forest in which variables 0 .. n-1, already in a fill-reducing order, are eliminated. The order is
+ * changed to an equivalent one in which each clique's pivots are neighbours (a postorder). Cliques are
+ * joined, at the price of some zeros in the factor, wherever a model of the time for eliminating fronts says
+ * that this pays.
  * @param sets every two members of a set are coupled; each ascending, without repeats */
 TEliminationForest eliminationForest(int n, const TVariableSets& sets, const TForestWishes& wishes = {});
 }  // namespace posidonia

@@ -12,7 +12,7 @@ struct TIncrementalOptions
 {
 	double relinearize_step{0.1};
 	double solve_tolerance{1e-4};
-	int newest_last{2};
+	int inner_ring{30};
 	double max_work{0.8};
 
 	template <class VISITOR>
@@ -25,7 +25,8 @@ struct TIncrementalOptions
 			"solve_tolerance", solve_tolerance, atLeast(0),
 			"Older nodes are solved anew where something near them changed by more [m, rad / 10]");
 		v.integer(
-			"newest_last", newest_last, between(1, 1000), "So many of the newest nodes are eliminated last");
+			"inner_ring", inner_ring, between(1, 1000),
+			"So many nodes nearest to the newest are eliminated last, since the next are joined on there");
 		v.number(
 			"max_work", max_work, between(0, 1),
 			"Nodes are linearised anew, those that moved most first, up to this part of a whole elimination");
@@ -36,26 +37,26 @@ struct TIncrementalOptions
 struct TIncrementalResult
 {
 	int new_nodes{0}, new_factors{0};
-	int eliminated{0};	   ///< nodes eliminated anew
-	int relinearized{0};   ///< nodes linearised anew
-	int waiting{0};		   ///< nodes that moved far enough to be linearised anew, left for later updates
-	int solved{0};		   ///< nodes whose solution changed
-	double work{0};		   ///< multiply-adds of the eliminations
-	bool rebuilt{false};   ///< by the batch optimiser, since the information was not positive definite
+	int eliminated{0};	  ///< nodes eliminated anew
+	int relinearized{0};  ///< nodes linearised anew
+	int waiting{0};		  ///< nodes that moved far enough to be linearised anew, left for later updates
+	int solved{0};		  ///< nodes whose solution changed
+	double work{0};		  ///< multiply-adds of the eliminations
+	bool rebuilt{false};  ///< by the batch optimiser, since the information was not positive definite
 };
 
 /** Nonlinear least squares of a graph that grows (README, "Incremental"): nodes and factors arrive, an update
- * eliminates anew only the cliques on the way from what changed to the root, linearises anew what has moved, solves what
- * changed. The newest node's pose is that of a whole solve at the present linearisation; older ones differ from it by
- * less than the tolerance's effect; refine() makes all exact. */
+ * eliminates anew only the cliques on the way from what changed to the root, linearises anew what has moved,
+ * solves what changed. The newest node's pose is that of a whole solve at the present linearisation; older
+ * ones differ from it by less than the tolerance's effect; refine() makes all exact. */
 class CIncrementalOptimizer
 {
    public:
 	explicit CIncrementalOptimizer(
 		const TIncrementalOptions& options = {}, const TOptimizerOptions& batch = TOptimizerOptions());
 
-	/** Takes over what the graph has more than at the last call, and factors of known numbers that have other values
-	 * now; moves the graph's nodes. A node's fixed flag counts when it is first seen.
+	/** Takes over what the graph has more than at the last call, and factors of known numbers that have other
+	 * values now; moves the graph's nodes. A node's fixed flag counts when it is first seen.
 	 * @param changed_edges, changed_priors replaced by setEdge(), setPrior(), setLoss() since the last call
 	 * @throws CError as CSparseOptimizer for what cannot be solved */
 	TIncrementalResult update(
@@ -87,6 +88,7 @@ class CIncrementalOptimizer
 	bool eliminate(const CPoseGraph& graph, TIncrementalResult& result);
 	std::vector<int> orderOf(const CBayesTree::TTop& top);
 	std::vector<double> nearNewest(const std::vector<int>& order) const;
+	std::vector<int> ringsOf(const std::vector<int>& nodes) const;
 	TFactorNormal normalOf(const CPoseGraph& graph, int factor) const;
 	void solve(CPoseGraph& graph, TIncrementalResult& result);
 	void moveNode(CPoseGraph& graph, int node) const;
@@ -104,9 +106,9 @@ class CIncrementalOptimizer
 	std::vector<TFactorNodes> m_factor_nodes;  ///< those that are free
 	std::vector<int> m_factor_of_edge, m_factor_of_prior;
 	std::vector<int> m_new_nodes, m_new_factors;
-	std::vector<int> m_moved;		///< nodes to look at for relinearisation
+	std::vector<int> m_moved;  ///< nodes to look at for relinearisation
 	std::vector<char> m_is_moved;
-	std::vector<int> m_local;					 ///< scratch: place of a node in the top
-	std::vector<std::array<int, 2>> m_pairs;	 ///< scratch
+	std::vector<int> m_local;				  ///< scratch: place of a node in the top
+	std::vector<std::array<int, 2>> m_pairs;  ///< scratch
 };
 }  // namespace posidonia

@@ -5,9 +5,9 @@
 
 namespace posidonia
 {
-/** Uninitialised doubles. Large ones lie on huge pages where the system has them: a solver touches tens of megabytes
- * for some milliseconds, and faulting them in page by page costs as much as the arithmetic. Grows only; growing loses
- * what it held. */
+/** Uninitialised doubles. Large ones lie on huge pages where the system has them: a solver touches tens of
+ * megabytes for some milliseconds, and faulting them in page by page costs as much as the arithmetic. Grows
+ * only; growing loses what it held. */
 class CLargeBuffer
 {
    public:

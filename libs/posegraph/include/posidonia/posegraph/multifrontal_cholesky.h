@@ -8,17 +8,19 @@ namespace posidonia
 {
 struct TFrontKernels;
 
-/** H = L L^T of a symmetric matrix of 6x6 blocks by multifrontal elimination (Duff, Reid 1983; Liu 1992): each clique
- * of the elimination forest is a small dense matrix that its children are summed into. SIMD kernels are chosen at run
- * time. Ordering and symbolic analysis are done once a pattern; factorising allocates nothing. */
+/** H = L L^T of a symmetric matrix of 6x6 blocks by multifrontal elimination (Duff, Reid 1983; Liu 1992):
+ * each clique of the elimination forest is a small dense matrix that its children are summed into. SIMD
+ * kernels are chosen at run time. Ordering and symbolic analysis are done once a pattern; factorising
+ * allocates nothing. */
 class CMultifrontalCholesky
 {
    public:
-	/** @param threads subtrees of the forest eliminated at a time; the bytes of the result do not depend on it */
+	/** @param threads subtrees of the forest eliminated at a time; the bytes of the result do not depend on
+	 * it */
 	explicit CMultifrontalCholesky(int threads = 1);
 
-	/** Fill-reducing elimination order of the graph of blocks: order[k] = the variable eliminated k-th. H is to be
-	 * laid out in this order.
+	/** Fill-reducing elimination order of the graph of blocks: order[k] = the variable eliminated k-th. H is
+	 * to be laid out in this order.
 	 * @param below pairs (a, b), a < b, of coupled variables, sorted, each once */
 	const std::vector<int>& order(int block_count, const std::vector<CBlockMatrix::TPosition>& below);
 
@@ -35,7 +37,8 @@ class CMultifrontalCholesky
 	const Eigen::VectorXd& solve();
 
 	const TEliminationForest& forest() const { return m_forest; }
-	/** The clique's columns of L: a front of size() blocks of which the first pivots(), see simd/front_kernels.h. */
+	/** The clique's columns of L: a front of size() blocks of which the first pivots(), see
+	 * simd/front_kernels.h. */
 	const double* panel(int clique) const { return m_panels.data() + m_panel_at[clique]; }
 	/** For each block of the clique's separator, which block of the parent's front it is. */
 	const int* rowsInParent(int clique) const { return m_rows.data() + m_rows_at[clique]; }

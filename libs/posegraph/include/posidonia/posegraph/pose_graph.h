@@ -31,6 +31,10 @@ class CPoseGraph
 	/** Returns the prior's index. Throws CError naming prior and node for the like reasons. */
 	int addPrior(const TPosePrior& prior);
 
+	/** The same nodes and priors with these edges alone, numbered in this order. Throws CError when there is
+	 * no such edge. */
+	CPoseGraph withEdges(const std::vector<int>& indices) const;
+
 	size_t nodeCount() const { return m_states.poses.size(); }
 	size_t edgeCount() const { return m_edges.size(); }
 	size_t priorCount() const { return m_priors.size(); }

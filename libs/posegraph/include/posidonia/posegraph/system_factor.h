@@ -21,7 +21,8 @@ class CSystemFactor : public CCliqueFactor
 	TClique clique(int c) const override
 	{
 		const auto& clique = m_cholesky.forest().cliques[c];
-		return {clique.parent,		 clique.size(), clique.pivots, m_system.nodesOfColumns().data() + clique.first,
+		return {clique.parent,		 clique.size(),
+				clique.pivots,		 m_system.nodesOfColumns().data() + clique.first,
 				m_cholesky.panel(c), m_cholesky.rowsInParent(c)};
 	}
 	std::vector<int> parentsFirst() const override

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+#include <posidonia/base/error.h>
+#include <posidonia/posegraph/edge_support.h>
+#include <posidonia/posegraph/graduated_nonconvexity.h>
+
+#include <cstring>
+
+#include "generated_sphere.h"
+
+using namespace posidonia;
+using namespace posidonia::testing;
+
+TEST(GraduatedNonconvexity, ChiSquareQuantilesAreTheTables)
+{
+	EXPECT_NEAR(chiSquare6Quantile(0.5), 5.3481, 1e-4);
+	EXPECT_NEAR(chiSquare6Quantile(0.95), 12.5916, 1e-4);
+	EXPECT_NEAR(chiSquare6Quantile(0.999), 22.4577, 1e-4);
+}
+
+TEST(GraduatedNonconvexity, WeightsFallFromOneToZeroAndBecomeATruncation)
+{
+	for (const double mu : {1e-4, 0.1, 1.0, 50.0}) {
+		double last = 1;
+		for (double s = 0.01; s < 1e6; s *= 1.3) {
+			const double w = gncWeight(s, 10, mu);
+			EXPECT_GE(w, 0) << "mu=" << mu << " s=" << s;
+			EXPECT_LE(w, last) << "mu=" << mu << " s=" << s;
+			last = w;
+		}
+		EXPECT_EQ(last, mu < 1e-3 ? gncWeight(1e6, 10, mu) : 0);
+	}
+	EXPECT_EQ(gncWeight(9.9, 10, 1e6), 1);
+	EXPECT_EQ(gncWeight(10.1, 10, 1e6), 0);
+}
+
+TEST(GraduatedNonconvexity, FindsThirtyPercentWrongLoopsOfASphere)
+{
+	for (unsigned seed = 1; seed <= 2; seed++) {
+		auto sphere = generatedSphere(seed, 20, 0.22, 0.3);
+		CPoseGraph oracle = trueEdgesOnly(sphere);
+		CSparseOptimizer().optimize(oracle);
+		const auto result = CGraduatedNonconvexity().optimize(sphere.graph);
+		EXPECT_TRUE(result.settled && result.optimum.converged()) << "seed=" << seed;
+		for (size_t k = 0; k < sphere.wrong.size(); k++) {
+			EXPECT_EQ(result.edge_weights[k], sphere.wrong[k] ? 0 : 1) << "seed=" << seed << " edge " << k;
+			EXPECT_EQ(result.optimum.edge_weights[k], result.edge_weights[k]);
+			EXPECT_EQ(sphere.graph.edge(int(k)).loss.weight, result.edge_weights[k]);
+		}
+		EXPECT_EQ(result.rejectedEdges().size(), size_t(0.3 * 380)) << "seed=" << seed;
+		EXPECT_LT(
+			meanPositionError(sphere.graph, sphere.truth), 1.001 * meanPositionError(oracle, sphere.truth))
+			<< "seed=" << seed;
+	}
+}
+
+/** Random chords: no two confirm one another, so it starts as the paper does. */
+TEST(GraduatedNonconvexity, WithoutNeighboursStartsFromAllEdges)
+{
+	auto planted = plantedGraph(4, 50, 30, 0.01, true);
+	std::vector<int> chain, open;
+	for (int k = 0; k < 79; k++)
+		(k < 49 ? chain : open).push_back(k);
+	std::vector<char> wrong(79, 0);
+	for (int k = 50; k < 79; k += 4) {
+		TPoseEdge edge = planted.graph.edge(k);
+		edge.T_from_to.translation() += Eigen::Vector3d(0.8, -1, 0.9);
+		planted.graph.setEdge(k, edge);
+		wrong[k] = 1;
+	}
+	const auto result = CGraduatedNonconvexity().optimize(planted.graph, chain);
+	for (size_t k = 0; k < wrong.size(); k++)
+		EXPECT_EQ(result.edge_weights[k], wrong[k] ? 0 : 1) << "edge " << k;
+	EXPECT_LT(largestDifference(planted.graph.poses(), planted.truth), 0.1);
+}
+
+TEST(GraduatedNonconvexity, CleanGraphsLoseNothingAndTwiceGivesTheSameBytes)
+{
+	auto first = generatedSphere(3, 12, 0.22, 0), second = first;
+	const auto result = CGraduatedNonconvexity().optimize(first.graph);
+	EXPECT_TRUE(result.rejectedEdges().empty());
+	CGraduatedNonconvexity().optimize(second.graph);
+	for (size_t i = 0; i < first.truth.size(); i++)
+		EXPECT_EQ(first.graph.poses()[i].matrix(), second.graph.poses()[i].matrix()) << "node " << i;
+	EXPECT_THROW(CGraduatedNonconvexity().optimize(first.graph, {9999}), CError);
+}
+
+TEST(EdgeSupport, ConfirmsTrueLoopsAndNoWrongOne)
+{
+	const auto sphere = generatedSphere(2, 20, 1.0, 0.3);
+	std::vector<int> odometry, loops;
+	for (int k = 0; k < int(sphere.graph.edgeCount()); k++)
+		(k < 399 ? odometry : loops).push_back(k);
+	const auto supported = supportedEdges(sphere.graph, odometry, loops, chiSquare6Quantile(0.999));
+	int right = 0;
+	for (const int k : supported)
+		right += !sphere.wrong[k];
+	EXPECT_GE(right, int(0.9 * 0.7 * 380));
+	EXPECT_LE(int(supported.size()) - right, 1);
+}
