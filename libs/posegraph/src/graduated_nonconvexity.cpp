@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace posidonia
 {
 namespace
 {
 constexpr int kTruncations = 20;  ///< of the final alternation; two or three suffice
-/** After a start from edges that confirm one another: weights are 0 beyond 11 times the threshold. */
-constexpr double kMuOfGoodStart = 0.1;
-
 /** Is there a pose for chordal initialisation to start from? */
 bool hasAnchor(const CPoseGraph& graph)
 {
@@ -88,29 +86,62 @@ TGncResult CGraduatedNonconvexity::optimize(CPoseGraph& graph, const std::vector
 		run.open.push_back(k);
 		graph.setLoss(k, {});
 	}
-	anneal(run, start(run));
-	truncate(run);
-	return run.result;
+	if (!startFromSupported(run)) {
+		anneal(run, startFromAll(run));
+		truncate(run);
+		return run.result;
+	}
+	return bestOf(run, {0.1, 0.01});
 }
 
-/** Puts the poses where the edges that confirm one another have their optimum; returns mu. From dead
- * reckoning with all edges the rotations fold into a local minimum as soon as drift and outliers are large.
- */
-double CGraduatedNonconvexity::start(TRun& run)
+/** Anneals from the present states with each first mu and keeps what the truncated cost says is best. A
+ * larger mu trusts the start more; where loops are few and far between, it cuts true ones off. */
+TGncResult CGraduatedNonconvexity::bestOf(TRun& run, const std::vector<double>& mus)
+{
+	const TNodeStates start = run.graph.states();
+	TNodeStates best_states;
+	TGncResult best;
+	double lowest = std::numeric_limits<double>::infinity();
+	for (const double mu : mus) {
+		run.graph.setStates(start);
+		run.result.rounds = 0;
+		anneal(run, mu);
+		truncate(run);
+		const double cost = truncatedCost(run);
+		if (!(cost < lowest)) continue;
+		lowest = cost;
+		best = run.result;
+		best_states = run.graph.states();
+	}
+	run.graph.setStates(best_states);
+	for (const int k : run.open)
+		run.graph.setLoss(k, {ERobustLoss::None, 1.0, best.edge_weights[k]});
+	return best;
+}
+
+/** What GNC minimises: each refused edge costs the threshold. */
+double CGraduatedNonconvexity::truncatedCost(const TRun& run) const
+{
+	double refused = 0;
+	for (const int k : run.open)
+		refused += 1 - run.result.edge_weights[k];
+	return chi2At(run.graph, run.graph.states()).robust + m_threshold2 * refused;
+}
+
+/** Puts the poses where the edges that confirm one another have their optimum; false when there are none.
+ * From dead reckoning with all edges the rotations fold into a local minimum as soon as drift and outliers
+ * are large. */
+bool CGraduatedNonconvexity::startFromSupported(TRun& run)
 {
 	const auto supported = supportedEdges(run.graph, run.trusted, run.open, m_threshold2);
-	if (supported.empty()) return startFromAll(run);
-	for (const int k : run.open)
-		run.result.edge_weights[k] = 0;
-	for (const int k : supported)
-		run.result.edge_weights[k] = 1;
+	if (supported.empty()) return false;
 	std::vector<int> used = run.trusted;
 	used.insert(used.end(), supported.begin(), supported.end());
 	CPoseGraph sure = run.graph.withEdges(used);
 	if (hasAnchor(sure)) initializeChordal(sure);
 	m_final.optimize(sure);
 	run.graph.setStates(sure.states());
-	return kMuOfGoodStart;
+	return true;
 }
 
 /** The paper's start (remark 5); mu below zero: every edge is within the threshold. */

@@ -36,8 +36,8 @@ struct TGncResult
 
 /** Truncated least squares by graduated non-convexity (Yang, Antonante, Tzoumas, Carlone 2020, sec. IV): from
  * a convex cost in which every edge counts to one in which an edge counts fully or not at all. Starts from
- * the edges that confirm one another, when there are any (edge_support.h; README, "Graduated non-convexity").
- * The loss of an edge that is not trusted is replaced by none, of weight 0 or 1. */
+ * the edges that confirm one another, when there are any (edge_support.h; README, "Graduated
+ * non-convexity"). The loss of an edge that is not trusted is replaced by none, of weight 0 or 1. */
 class CGraduatedNonconvexity
 {
    public:
@@ -57,7 +57,9 @@ class CGraduatedNonconvexity
 		TGncResult result;
 	};
 
-	double start(TRun& run);
+	bool startFromSupported(TRun& run);
+	TGncResult bestOf(TRun& run, const std::vector<double>& mus);
+	double truncatedCost(const TRun& run) const;
 	double startFromAll(TRun& run);
 	void anneal(TRun& run, double mu);
 	void truncate(TRun& run);
