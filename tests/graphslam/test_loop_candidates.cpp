@@ -188,3 +188,57 @@ TEST(CandidatesInRoi, noneBeforeTheGap)
 	m.add(0, 0);
 	EXPECT_EQ(m.candidates(anyOverlap()).size(), 1u);
 }
+
+TEST(CandidatesInRoi, theSphereGrowsWithTheUncertainty)
+{
+	TTestMap m;
+	m.add(0, 6);   // 0
+	m.add(0, 9);   // 1
+	m.add(0, 12);  // 2
+	for (int k = 0; k < 4; k++)
+		m.add(40, 40);
+	m.add(0, 0);  // 7
+	TRoiOptions options;
+	options.radius = 4;
+	options.radius_max = 10;
+	options.sigmas = 3;
+	const auto at = [&](double sigma) {
+		return nodesOf(
+			candidatesInRoi(m.map, 7, options, camera(), m.T_body_camera, std::vector<double>(8, sigma)));
+	};
+	EXPECT_TRUE(at(0).empty());
+	EXPECT_TRUE(at(1).empty()) << "3 m of reach: the sphere stays at 4 m";
+	EXPECT_EQ(at(2.1), (std::vector<int>{0})) << "6.3 m";
+	EXPECT_EQ(at(3.1), (std::vector<int>{0, 1})) << "9.3 m: the nearest first";
+	EXPECT_EQ(at(30), (std::vector<int>{0, 1})) << "bounded by 10 m";
+	options.sigmas = 0;
+	EXPECT_TRUE(at(30).empty()) << "constant";
+}
+
+TEST(CandidatesInRoi, onlyPossibleOnesComeLast)
+{
+	TTestMap m;
+	m.add(0, 3);	// 0: no overlap along the width of 4.24 m, possible within 3 m
+	m.add(0, 0.5);	// 1: likely
+	m.add(0, 4.5);	// 2: too far from likely; possible when moved by 3 m
+	m.add(0, 1);	// 3: likely
+	for (int k = 0; k < 4; k++)
+		m.add(40, 40);
+	m.add(0, 0);
+	TRoiOptions options;
+	options.min_overlap = 0.5;
+	options.radius = 8;
+	const std::vector<double> sigma(9, 1);
+	const auto candidates = candidatesInRoi(m.map, 8, options, camera(), m.T_body_camera, sigma);
+	EXPECT_EQ(nodesOf(candidates), (std::vector<int>{1, 3, 0, 2}));
+	for (const auto& c : candidates) {
+		EXPECT_EQ(c.only_possible, c.node == 0 || c.node == 2) << "node " << c.node;
+		EXPECT_GE(c.overlap, 0.5) << "node " << c.node;
+	}
+	// Without uncertainty, and with none asked for, the likely ones alone.
+	EXPECT_EQ(
+		nodesOf(candidatesInRoi(m.map, 8, options, camera(), m.T_body_camera)), (std::vector<int>{1, 3}));
+	EXPECT_EQ(
+		nodesOf(candidatesInRoi(m.map, 8, options, camera(), m.T_body_camera, std::vector<double>(9, 0))),
+		(std::vector<int>{1, 3}));
+}

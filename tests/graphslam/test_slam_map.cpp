@@ -56,7 +56,7 @@ TEST(SlamMap, mrptsGraphHoldsTheSameEdges)
 	for (int i = 0; i < run.nodeCount(); i++)
 		m.map.addNode(run.node(i), run.pose(i));
 	for (const auto& edge : run.edges())
-		m.map.addEdge(edge);
+		m.map.addEdge(edge);  // with its share
 
 	ASSERT_EQ(m.graph.nodes.size(), size_t(run.nodeCount()));
 	ASSERT_EQ(m.graph.edgeCount(), run.edges().size());
@@ -74,7 +74,8 @@ TEST(SlamMap, mrptsGraphHoldsTheSameEdges)
 		for (const auto& edge : edges) {
 			EXPECT_LT(localCoordinates(edge.T_from_to, fromMrpt(mrpt_edge->second.mean)).norm(), 1e-12);
 			const Matrix6d information = localInformation(mrpt_edge->second);
-			EXPECT_LT((information - edge.information).norm(), 1e-9 * edge.information.norm());
+			const Matrix6d counted = edge.share * edge.information;
+			EXPECT_LT((information - counted).norm(), 1e-9 * counted.norm());
 			++mrpt_edge;
 		}
 	}
@@ -192,9 +193,11 @@ TEST(SlamMap, lateReadingsReachTheGraphAsRevisedEdges)
 	// A tenth of the DVL's pings come half a second late: each edge is revised, and the graph ends where that
 	// of the log in order does.
 	const auto edgesOfRun = [](bool late) {
+		TStereoSlamOptions options = TSetup().slam;
+		options.loss.share_information = false;	 // shares are revised, too
 		CStereoSlam slam(
-			TSetup().slam, survey().sensors, survey().ekf(),
-			std::make_unique<CStereoImageLoader>(survey().rawlog), "");
+			options, survey().sensors, survey().ekf(), std::make_unique<CStereoImageLoader>(survey().rawlog),
+			"");
 		std::vector<mrpt::obs::CObservation::Ptr> waiting;
 		int pings = 0;
 		for (const auto& o : survey().observations) {

@@ -1,5 +1,7 @@
 #include <posidonia/graphslam/CSparseGSO.h>
 
+#include <cmath>
+
 namespace posidonia
 {
 using namespace mrpt::obs;
@@ -12,9 +14,11 @@ TPoseEdge toPoseEdge(const TSlamEdge& edge, const TGraphLossOptions& loss)
 	e.from = edge.from;
 	e.to = edge.to;
 	e.T_from_to = edge.T_from_to;
-	e.information = 0.5 * (edge.information + edge.information.transpose());
+	e.information = (0.5 * edge.share) * (edge.information + edge.information.transpose());
 	if (edge.kind == EEdgeKind::ODOMETRY || loss.loss == "none") return e;
-	e.loss = {loss.loss == "huber" ? ERobustLoss::Huber : ERobustLoss::Cauchy, loss.scale};
+	// An edge is an outlier by its own information: share * rho(s) of the unshared s.
+	const double scale = loss.scale * std::sqrt(edge.share);
+	e.loss = {loss.loss == "huber" ? ERobustLoss::Huber : ERobustLoss::Cauchy, scale};
 	return e;
 }
 

@@ -34,24 +34,53 @@ double predictedOverlap(const TStereoCamera& camera, const Isometry3d& T_cam_i_c
 	return static_cast<double>(inside) / (kColumns * kRows);
 }
 
+namespace
+{
+/** T_map_j moved level towards node i by `reach` [m] at most: the best place for their overlap. */
+Isometry3d nearest(const Isometry3d& T_map_i, const Isometry3d& T_map_j, double reach)
+{
+	Vector3d way = T_map_i.translation() - T_map_j.translation();
+	way.z() = 0;
+	Isometry3d T = T_map_j;
+	T.translation() += std::min(1.0, reach / way.norm()) * way;
+	return T;
+}
+}  // namespace
+
 std::vector<TCandidate> candidatesInRoi(
 	const CSlamMap& map, int j, const TRoiOptions& options, const TStereoCamera& camera,
-	const Isometry3d& T_body_camera)
+	const Isometry3d& T_body_camera, const std::vector<double>& sigma)
 {
-	std::vector<TCandidate> candidates;
+	std::vector<TCandidate> likely;
+	std::vector<std::pair<double, TCandidate>> possible;  // with the distance
 	const Isometry3d T_map_j = map.pose(j);
 	const double depth = medianDepth(*map.node(j).key_frame);
-	for (int i = 0; i + options.min_node_gap <= j; i++) {
-		const Isometry3d T_map_i = map.pose(i);
-		if ((T_map_i.translation() - T_map_j.translation()).norm() > options.radius) continue;
+	const auto overlap = [&](const Isometry3d& T_map_i, const Isometry3d& T_map_j_) {
 		const Isometry3d T_cam_i_cam_j =
-			T_body_camera.inverse() * T_map_i.inverse() * T_map_j * T_body_camera;
-		const double overlap = predictedOverlap(camera, T_cam_i_cam_j, depth);
-		if (overlap >= options.min_overlap) candidates.push_back({i, overlap});
+			T_body_camera.inverse() * T_map_i.inverse() * T_map_j_ * T_body_camera;
+		return predictedOverlap(camera, T_cam_i_cam_j, depth);
+	};
+	for (int i = 0; i + options.min_node_gap <= j; i++) {
+		const double reach = sigma.empty() ? 0 : options.sigmas * sigma[static_cast<size_t>(i)];
+		const double radius = std::max(options.radius, std::min(reach, options.radius_max));
+		const Isometry3d T_map_i = map.pose(i);
+		const double distance = (T_map_i.translation() - T_map_j.translation()).norm();
+		if (distance > radius) continue;
+		const double predicted = overlap(T_map_i, T_map_j);
+		if (predicted >= options.min_overlap) {
+			likely.push_back({i, predicted, false});
+			continue;
+		}
+		const double best = reach > 0 ? overlap(T_map_i, nearest(T_map_i, T_map_j, reach)) : 0;
+		if (best >= options.min_overlap) possible.push_back({distance, {i, best, true}});
 	}
-	std::stable_sort(candidates.begin(), candidates.end(), [](const TCandidate& a, const TCandidate& b) {
+	std::stable_sort(likely.begin(), likely.end(), [](const TCandidate& a, const TCandidate& b) {
 		return a.overlap > b.overlap;
 	});
-	return candidates;
+	std::stable_sort(
+		possible.begin(), possible.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+	for (const auto& p : possible)
+		likely.push_back(p.second);
+	return likely;
 }
 }  // namespace posidonia

@@ -1,10 +1,13 @@
 #include <posidonia/base/error.h>
 #include <posidonia/geometry/mrpt_pose.h>
 #include <posidonia/graphslam/slam_map.h>
+#include <posidonia/vision/key_frame.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <queue>
 
 namespace posidonia
@@ -38,7 +41,45 @@ void CSlamMap::addEdge(const TSlamEdge& edge)
 	m_edges.push_back(edge);
 	m_graph->insertEdgeAtEnd(
 		static_cast<mrpt::graphs::TNodeID>(edge.from), static_cast<mrpt::graphs::TNodeID>(edge.to),
-		toMrptGaussianInf(edge.T_from_to, edge.information));
+		toMrptGaussianInf(edge.T_from_to, edge.share * edge.information));
+}
+
+void CSlamMap::writeToMrpt(int index)
+{
+	const TSlamEdge& edge = m_edges[static_cast<size_t>(index)];
+	const auto ids = std::make_pair(
+		static_cast<mrpt::graphs::TNodeID>(edge.from), static_cast<mrpt::graphs::TNodeID>(edge.to));
+	// MRPT's graph keeps edges between two nodes in the order of their coming.
+	auto found = m_graph->edges.lower_bound(ids);
+	for (int other : m_edges_of[static_cast<size_t>(edge.from)]) {
+		const TSlamEdge& o = m_edges[static_cast<size_t>(other)];
+		if (other < index && o.from == edge.from && o.to == edge.to) ++found;
+	}
+	found->second = toMrptGaussianInf(edge.T_from_to, edge.share * edge.information);
+}
+
+void CSlamMap::setShare(int index, double share)
+{
+	m_edges[static_cast<size_t>(index)].share = share;
+	m_revised.push_back(index);
+	writeToMrpt(index);
+}
+
+void CSlamMap::shareInformation()
+{
+	/** A share that is nearer than this to the one in use stays: each revision costs the optimiser. */
+	constexpr double kTolerance = 0.05;
+	for (; m_edges_shared < m_edges.size(); m_edges_shared++) {
+		const TSlamEdge& edge = m_edges[m_edges_shared];
+		if (edge.points.empty()) continue;
+		m_shared_points.addEdge(edge.from, edge.to, edge.points);
+		m_stereo_edges.push_back(static_cast<int>(m_edges_shared));
+	}
+	for (const int k : m_shared_points.takeTouched()) {
+		const int index = m_stereo_edges[static_cast<size_t>(k)];
+		const double now = m_edges[static_cast<size_t>(index)].share, share = m_shared_points.share(k);
+		if (std::abs(share - now) > kTolerance * now) setShare(index, share);
+	}
 }
 
 void CSlamMap::reviseOdometry(int to, const TPoseEstimate& revised, const Isometry3d& T_odom_body)
@@ -56,15 +97,19 @@ void CSlamMap::reviseOdometry(int to, const TPoseEstimate& revised, const Isomet
 	edge.path_length = revised.path_length;
 	m_nodes[static_cast<size_t>(to)].T_odom_body = T_odom_body;
 	m_revised.push_back(*found);
-	// MRPT's graph keeps edges between two nodes in the order of their coming: odometry comes first.
-	const auto ids = std::make_pair(
-		static_cast<mrpt::graphs::TNodeID>(edge.from), static_cast<mrpt::graphs::TNodeID>(edge.to));
-	m_graph->edges.lower_bound(ids)->second = toMrptGaussianInf(edge.T_from_to, edge.information);
+	writeToMrpt(*found);
 }
 
 void CSlamMap::setKeyFrame(int i, std::shared_ptr<const TKeyFrame> key_frame)
 {
-	m_nodes[static_cast<size_t>(i)].key_frame = std::move(key_frame);
+	TSlamNode& node = m_nodes[static_cast<size_t>(i)];
+	node.places.clear();
+	std::map<std::pair<double, double>, int> first;
+	for (const TStereoPoint& p : key_frame->points)
+		node.places.push_back(
+			first.emplace(std::make_pair(p.uvr.x(), p.uvr.y()), static_cast<int>(node.places.size()))
+				.first->second);
+	node.key_frame = std::move(key_frame);
 }
 
 Isometry3d CSlamMap::pose(int i) const

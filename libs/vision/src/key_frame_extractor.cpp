@@ -1,5 +1,6 @@
 #include <posidonia/base/error.h>
 #include <posidonia/vision/key_frame_extractor.h>
+#include <posidonia/vision/light_fall.h>
 #include <posidonia/vision/patch_alignment.h>
 #include <posidonia/vision/stereo_matching.h>
 
@@ -40,7 +41,7 @@ void CKeyFrameExtractor::checkImage(const cv::Mat& image, const char* side) cons
 		"convert and rectify it first");
 }
 
-std::optional<TStereoPoint> CKeyFrameExtractor::measure(
+std::optional<CKeyFrameExtractor::TMeasured> CKeyFrameExtractor::measure(
 	const CPatchAligner& aligner, const cv::KeyPoint& left, const cv::KeyPoint& right, double octave) const
 {
 	const int radius = std::clamp(
@@ -58,14 +59,14 @@ std::optional<TStereoPoint> CKeyFrameExtractor::measure(
 	}
 	const double sigma_uv = m_options.positionSigma(octave);
 	const double sigma_d = std::hypot(m_options.sigma_disparity, m_options.disparity_noise_scale * a->sigma);
-	return makeStereoPoint(m_camera, uvd, sigma_uv, sigma_d, octave);
+	return TMeasured{makeStereoPoint(m_camera, uvd, sigma_uv, sigma_d, octave), a->contrast};
 }
 
-std::vector<std::optional<TStereoPoint>> CKeyFrameExtractor::measureAll(
+std::vector<std::optional<CKeyFrameExtractor::TMeasured>> CKeyFrameExtractor::measureAll(
 	const CPatchAligner& aligner, const TFeatures& left, const TFeatures& right,
 	const std::vector<std::pair<int, int>>& pairs) const
 {
-	std::vector<std::optional<TStereoPoint>> points(pairs.size());
+	std::vector<std::optional<TMeasured>> points(pairs.size());
 	const auto half = [&](size_t first, size_t last) {
 		for (size_t k = first; k < last; k++) {
 			const auto& [i, j] = pairs[k];
@@ -76,6 +77,22 @@ std::vector<std::optional<TStereoPoint>> CKeyFrameExtractor::measureAll(
 	half(0, pairs.size() / 2);
 	second.get();
 	return points;
+}
+
+void CKeyFrameExtractor::correctLightFall(std::vector<std::optional<TMeasured>>& points) const
+{
+	const CLightFall fall(m_camera.width, m_camera.height);
+	std::vector<CLightFall::TSample> samples;
+	for (const auto& p : points)
+		if (p) samples.push_back({p->point.uvr, p->contrast});
+	const double slope = fall.slopeOf(samples);
+	for (auto& p : points) {
+		if (!p) continue;
+		const TStereoPoint& q = p->point;
+		Eigen::Vector3d uvd = q.uvd();
+		uvd.head<2>() -= fall.pull(uvd.head<2>(), q.octave, slope);
+		p->point = makeStereoPoint(m_camera, uvd, q.sigma_uv, q.sigma_d, q.octave);
+	}
 }
 
 TKeyFrame CKeyFrameExtractor::extract(const cv::Mat& left, const cv::Mat& right) const
@@ -91,11 +108,12 @@ TKeyFrame CKeyFrameExtractor::extract(const cv::Mat& left, const cv::Mat& right)
 	frame.detected_left = static_cast<int>(l.key_points.size());
 	frame.detected_right = static_cast<int>(r.key_points.size());
 	const auto pairs = matchRows(l, r, m_options, m_min_disparity, m_max_disparity);
-	const auto points = measureAll(CPatchAligner(left, right), l, r, pairs);
+	auto points = measureAll(CPatchAligner(left, right), l, r, pairs);
+	if (m_options.correct_light_fall && m_options.detector == "SIFT") correctLightFall(points);
 	std::vector<int> rows;
 	for (size_t k = 0; k < pairs.size(); k++)
 		if (points[k]) {
-			frame.points.push_back(*points[k]);
+			frame.points.push_back(points[k]->point);
 			rows.push_back(pairs[k].first);
 		}
 	frame.descriptors.create(static_cast<int>(rows.size()), l.descriptors.cols, CV_8U);

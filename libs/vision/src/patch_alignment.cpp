@@ -123,7 +123,7 @@ std::optional<TPatchAlignment> CPatchAligner::align(
 		const double residual = std::max(0.0, e.ll - gain * e.lr + step * e.lg);
 		const double gradient = e.gg - e.rg * e.rg / e.rr;
 		const double sigma = std::sqrt(residual / (e.n - 3) * CORRELATED_PIXELS / gradient);
-		return TPatchAlignment{d, sigma, e.lr / std::sqrt(e.ll * e.rr)};
+		return TPatchAlignment{d, sigma, e.lr / std::sqrt(e.ll * e.rr), std::sqrt(e.ll / e.rr)};
 	}
 	return {};
 }

@@ -168,6 +168,8 @@ void CStereoRegistration::summarise(
 	}
 	r.information *= m_efficiency;
 	r.inliers = static_cast<int>(r.inlier_pairs.size());
+	// The variance of unit weight a posteriori: this floor, this water.
+	if (m_options.scale_by_residuals && r.chi2 > r.dof() && r.dof() > 0) r.information *= r.dof() / r.chi2;
 	if (r.inliers) r.rmse_px = std::sqrt(squares / (4.0 * r.inliers));
 	r.spread_px = spread(a, b, r.inlier_pairs);
 }

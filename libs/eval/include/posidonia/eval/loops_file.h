@@ -18,7 +18,7 @@ struct TLoopRow
 	double rmse{0};								 ///< of reprojection [px]
 	std::optional<Eigen::Isometry3d> T_from_to;	 ///< measured, body frames; always there when accepted
 
-	bool accepted() const { return status == "accepted"; }
+	bool accepted() const { return status == "accepted" || status == "accepted on retry"; }
 	/** Was it offered to registration? "over budget" means that its turn never came. */
 	bool tried() const { return status != "over budget"; }
 	/** Between neighbours in time; anything else is a loop closing. */

@@ -2,10 +2,12 @@
 
 #include <mrpt/graphs/CNetworkOfPoses.h>
 #include <posidonia/geometry/se3.h>
+#include <posidonia/graphslam/shared_points.h>
 #include <posidonia/nav/odometry_source.h>
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace posidonia
@@ -30,6 +32,7 @@ struct TSlamNode
 	double stamp{0};											   ///< UTC [s]
 	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};  ///< The odometry's pose at `stamp`
 	std::shared_ptr<const TKeyFrame> key_frame;	 ///< Null until an edge decider asked for it
+	std::vector<int> places{};	///< Of each of its points: the first of those at the same pixel
 };
 
 /** A constraint T_from_to between two nodes with its information over (rho, phi). */
@@ -38,8 +41,12 @@ struct TSlamEdge
 	int from{0}, to{0};
 	EEdgeKind kind{EEdgeKind::ODOMETRY};
 	Eigen::Isometry3d T_from_to{Eigen::Isometry3d::Identity()};
-	Matrix6d information{Matrix6d::Identity()};
-	double path_length{0};	///< Odometry edges: metres travelled
+	Matrix6d information{Matrix6d::Identity()};	 ///< Of this measurement alone
+	double path_length{0};						 ///< Odometry edges: metres travelled
+	/** Stereo edges: the measurement is made of these points, (point of `from`, point of `to`). */
+	CSharedPoints::TPoints points{};
+	/** The part of `information` that it may claim in the graph, (0, 1] (README, "Shared points"). */
+	double share{1};
 };
 
 /** A candidate pair and what became of it: a row of loops.csv. */
@@ -71,6 +78,8 @@ class CSlamMap
 	/** Gives the odometry edge that ends at node `to` another value, and the node its odometry's pose. Throws
 	 * CError when there is no such edge. */
 	void reviseOdometry(int to, const TPoseEstimate& edge, const Eigen::Isometry3d& T_odom_body);
+	/** Revises the shares of the stereo edges after others were added (README, "Shared points"). */
+	void shareInformation();
 	/** Indices of edges that were revised, in order; it only grows. */
 	const std::vector<int>& revisedEdges() const { return m_revised; }
 
@@ -94,11 +103,17 @@ class CSlamMap
 	std::vector<TCandidateRow> candidates;	///< Every pair that was considered, in order
 
    private:
+	void setShare(int edge, double share);
+	void writeToMrpt(int edge);
+
 	TSlamGraph* m_graph{nullptr};
 	std::vector<TSlamNode> m_nodes;
 	std::vector<TSlamEdge> m_edges;
 	std::vector<int> m_revised;
 	std::vector<std::vector<int>> m_edges_of;  // indices of the edges at each node
+	CSharedPoints m_shared_points;
+	std::vector<int> m_stereo_edges;  // index of each edge in m_shared_points
+	size_t m_edges_shared{0};		  // edges that shareInformation() has seen
 };
 
 /** loops.csv of the candidates: from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw. */

@@ -56,6 +56,7 @@ struct TSequentialOptions
 struct TRoiOptions
 {
 	double radius{8.0};	 ///< [m]
+	double sigmas{3.0}, radius_max{20.0};
 	int max_candidates{25};
 	int min_node_gap{5};
 	double min_overlap{0.35};
@@ -66,6 +67,11 @@ struct TRoiOptions
 		v.number(
 			"roi_radius", radius, above(0),
 			"Candidates: nodes in this sphere round the present pose [m] (paper sec. 3.2)");
+		v.number(
+			"roi_sigmas", sigmas, atLeast(0),
+			"The sphere grows to so many sigmas of the pair's predicted distance, and the overlap is that of "
+			"the best place within them; 0: constant");
+		v.number("roi_radius_max", radius_max, above(0), "The sphere grows to this radius at most [m]");
 		v.integer(
 			"max_candidates", max_candidates, atLeast(1),
 			"Registrations a node at most, best predicted overlap first");
@@ -85,6 +91,7 @@ struct TGateOptions
 	double max_jump{10};										   ///< [m]
 	double sigma_floor_xyz{0.02};								   ///< [m]
 	double sigma_floor_angle{0.5 * 3.14159265358979323846 / 180};  ///< [rad]
+	double retry_moved{0.5};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
@@ -105,14 +112,19 @@ struct TGateOptions
 		v.degrees(
 			"sigma_floor_angle", sigma_floor_angle, atLeast(0),
 			"Least sigma of a predicted rotation axis [deg]");
+		v.number(
+			"retry_moved", retry_moved, atLeast(0),
+			"mahalanobis: a refused pair is judged again once its prediction has moved so many sigmas; 0: "
+			"never");
 	}
 };
 
-/** Section [GraphOptimizer]: robust losses of the stereo edges in CSparseGSO. */
+/** Section [GraphOptimizer]: what the stereo edges weigh in CSparseGSO. */
 struct TGraphLossOptions
 {
 	std::string loss{"cauchy"};
 	double scale{4.0};
+	bool share_information{true};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
@@ -120,6 +132,9 @@ struct TGraphLossOptions
 		v.choice("loss", loss, {"none", "huber", "cauchy"}, "Robust loss of the stereo edges");
 		v.number(
 			"loss_scale", scale, above(0), "Mahalanobis distance where the loss departs from quadratic [-]");
+		v.flag(
+			"share_information", share_information,
+			"Stereo edges made of the same points share their information; false: taken as independent");
 	}
 };
 

@@ -23,6 +23,9 @@ class CRoiStereoERD : public CStereoERD
    protected:
 	TChosen chooseCandidates(int j, const TSlamParts::TRig& rig) override;
 	EEdgeKind kind() const override { return EEdgeKind::ROI; }
+
+   private:
+	std::vector<double> horizontalSigmas(int j) const;
 };
 
 /** Several edge deciders, run in order. */

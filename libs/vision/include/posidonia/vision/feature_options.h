@@ -26,6 +26,7 @@ struct TFeatureOptions
 	double patch_scale{2.0};
 	double min_ncc{0.7};
 	bool average_left_right{true};
+	bool correct_light_fall{true};
 
 	double sigma_uv{0}, sigma_uv_growth{0};	 ///< 0: as measured for the detector
 	double sigma_disparity{0.015}, disparity_noise_scale{0.65};
@@ -66,6 +67,9 @@ struct TFeatureOptions
 		v.number(
 			"min_ncc", min_ncc, between(-1, 1), "Least correlation of the aligned left and right patches");
 		v.flag("average_left_right", average_left_right, "Position = mean of the left and right detections");
+		v.flag(
+			"correct_light_fall", correct_light_fall,
+			"SIFT: undo the pull on key points of a contrast that falls towards the corners");
 		v.number(
 			"sigma_uv", sigma_uv, atLeast(0),
 			"Position noise across views [px] of a finest-scale key point; 0 = as measured for the detector");

@@ -28,12 +28,20 @@ class CKeyFrameExtractor
 	const TStereoCamera& camera() const { return m_camera; }
 
    private:
+	/** A stereo point, and the contrast of its left picture over the right one. */
+	struct TMeasured
+	{
+		TStereoPoint point;
+		double contrast;
+	};
+
 	/** Every pair (left, right) of key points measured, on two threads. */
-	std::vector<std::optional<TStereoPoint>> measureAll(
+	std::vector<std::optional<TMeasured>> measureAll(
 		const class CPatchAligner& aligner, const TFeatures& left, const TFeatures& right,
 		const std::vector<std::pair<int, int>>& pairs) const;
 	void checkImage(const cv::Mat& image, const char* side) const;
-	std::optional<TStereoPoint> measure(
+	void correctLightFall(std::vector<std::optional<TMeasured>>& points) const;
+	std::optional<TMeasured> measure(
 		const class CPatchAligner& aligner, const cv::KeyPoint& left, const cv::KeyPoint& right,
 		double octave) const;
 

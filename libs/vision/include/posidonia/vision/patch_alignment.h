@@ -11,6 +11,7 @@ struct TPatchAlignment
 	double disparity;  ///< u_left - u_right [px]
 	double sigma;	   ///< Its noise as predicted by the patch's residual and gradient [px]
 	double ncc;		   ///< Correlation of the aligned patches
+	double contrast;   ///< Contrast (standard deviation) of the left patch over that of the right
 };
 
 /** A stereo pair smoothed for patch alignment. */

@@ -21,6 +21,7 @@ struct TRegistrationOptions
 	double max_rmse{2.0};	///< [px]
 	double min_spread{20};	///< [px]
 	bool canonical_order{true};
+	bool scale_by_residuals{true};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
@@ -41,6 +42,9 @@ struct TRegistrationOptions
 			"min_spread", min_spread, atLeast(0),
 			"Least spread of the inliers along their narrower axis [px]");
 		v.flag("canonical_order", canonical_order, "Solve a pair in one direction, whichever is asked for");
+		v.flag(
+			"scale_by_residuals", scale_by_residuals,
+			"Where the residuals are larger than the stated noise, the information is smaller in proportion");
 	}
 };
 }  // namespace posidonia
