@@ -107,6 +107,7 @@ void CGraphSlamApp::collect(const CStereoSlam& slam, const CRawlogReader& reader
 				std::string(
 					slam.odometry().ready() ? "it holds no stereo pair" : "the odometry never became ready"),
 			"check its sensors with rawlog-edit --info, and [InitialPose]");
+	slam.makeExact();
 	m_results.trajectories.nodes = slam.nodes();
 	m_results.nodes = slam.map().nodeCount();
 	for (const auto& edge : slam.map().edges()) {

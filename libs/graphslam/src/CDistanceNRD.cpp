@@ -31,15 +31,17 @@ bool CDistanceNRD::farEnough(double displacement)
 
 void CDistanceNRD::registerRoot(double stamp)
 {
-	const Isometry3d T_odom_body = m_parts->odometry.now().T;  // map and odom start equal
-	m_parts->map.addNode({stamp, T_odom_body, {}}, T_odom_body);
+	const TPoseEstimate start = m_parts->odometry.now();  // map and odom start equal
+	m_parts->map.root_covariance = start.cov;
+	m_parts->map.addNode({stamp, start.T, {}, {}}, start.T);
 }
 
 void CDistanceNRD::registerNode(double stamp, const TPoseEstimate& since_node)
 {
 	CSlamMap& map = m_parts->map;
 	const int from = map.lastNode();
-	map.addNode({stamp, m_parts->odometry.now().T, {}}, map.pose(from) * since_node.T);
+	map.addNode(
+		{stamp, m_parts->odometry.now().T, m_parts->odometry.unary(), {}}, map.pose(from) * since_node.T);
 	map.addEdge(
 		{from, from + 1, EEdgeKind::ODOMETRY, since_node.T, since_node.cov.inverse(),
 		 since_node.path_length});

@@ -172,6 +172,11 @@ TTrajectory CStereoSlam::nodes() const
 	return trajectory;
 }
 
+void CStereoSlam::makeExact()
+{
+	m_impl->parts.make_exact();
+}
+
 double CStereoSlam::chi2() const
 {
 	return posidonia::chi2(toPoseGraph(map(), m_impl->parts.options.loss));

@@ -3,6 +3,11 @@
 /** What each kind of reading does to the filters. */
 namespace posidonia
 {
+namespace
+{
+constexpr double kDive = 3600;	///< [s]
+}
+
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -65,6 +70,9 @@ bool CNavigator::fuseAttitude(const TSensorReading& reading, const TAttitudeRead
 	kept.sigma_roll_pitch = std::sqrt(std::pow(spec.sigma_roll_pitch, 2) + variance(kAhrsBias));
 	kept.sigma_heading =
 		use_heading ? std::sqrt(std::pow(spec.sigma_heading, 2) + variance(kAhrsBias + 2)) : M_PI;
+	kept.lasting_roll_pitch = std::sqrt(variance(kAhrsBias));
+	kept.lasting_heading = use_heading ? std::sqrt(variance(kAhrsBias + 2)) : M_PI;
+	kept.lasting_time = spec.bias_time;
 	return true;
 }
 
@@ -134,6 +142,9 @@ void CNavigator::apply(const TSensorReading& reading, const TDepthReading& depth
 		depth.depth - m_nav.state().pressure_offset - m.depth.R_map_body.row(2).dot(from_body);
 	m.depth.body_depth.sigma =
 		std::sqrt(sigma * sigma + variance(kPressureOffset) + leverVariance(from_body).z());
+	// A wrong surface pressure stays for the dive.
+	m.depth.body_depth.lasting = std::sqrt(variance(kPressureOffset));
+	m.depth.body_depth.lasting_time = kDive;
 }
 
 void CNavigator::apply(const TSensorReading& reading, const TFixReading& fix)
@@ -165,6 +176,8 @@ void CNavigator::apply(const TSensorReading& reading, const TFixReading& fix)
 	m.fix.body_position.sigma = std::sqrt(
 		sigma * sigma + std::max(variance(kGpsBias), variance(kGpsBias + 1)) +
 		leverVariance(from_body).head<2>().maxCoeff());
+	m.fix.body_position.lasting = std::sqrt(std::max(variance(kGpsBias), variance(kGpsBias + 1)));
+	m.fix.body_position.lasting_time = sensor.gps->bias_time;
 }
 
 void CNavigator::bridgeLossOfLock()

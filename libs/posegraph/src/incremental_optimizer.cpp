@@ -199,13 +199,26 @@ std::vector<double> CIncrementalOptimizer::nearNewest(const std::vector<int>& or
 	return late;
 }
 
+/** e^T Omega e at the estimate, by the model at the linearisation. */
+double CIncrementalOptimizer::estimatedS(const TFactorNormal& normal) const
+{
+	double s = normal.s;
+	for (int a = 0; a < normal.count; a++) {
+		const Vector6d& d_a = m_d[normal.node[a]];
+		s += 2 * normal.g[a].dot(d_a) + d_a.dot(normal.H[TFactorNormal::lower(a, a)] * d_a);
+		for (int b = 0; b < a; b++)
+			s += 2 * d_a.dot(normal.H[TFactorNormal::lower(a, b)] * m_d[normal.node[b]]);
+	}
+	return std::max(s, 0.0);
+}
+
 TFactorNormal CIncrementalOptimizer::normalOf(const CPoseGraph& graph, int factor) const
 {
 	const auto [prior, index] = m_factors[factor];
 	TFactorNormal normal = prior ? linearizePrior(graph.priors()[index], m_linearization)
 								 : linearizeEdge(graph.edges()[index], m_linearization);
-	const double weight =
-		robustWeight(prior ? graph.priors()[index].loss : graph.edges()[index].loss, normal.s);
+	const TRobustLoss& loss = prior ? graph.priors()[index].loss : graph.edges()[index].loss;
+	const double weight = robustWeight(loss, loss.kind == ERobustLoss::None ? normal.s : estimatedS(normal));
 	int kept = 0;
 	int from[3] = {};
 	for (int a = 0; a < normal.count; a++)

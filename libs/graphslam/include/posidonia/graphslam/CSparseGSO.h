@@ -1,8 +1,8 @@
 #pragma once
 
 #include <mrpt/graphslam/interfaces/CGraphSlamOptimizer.h>
+#include <posidonia/graphslam/graph_priors.h>
 #include <posidonia/graphslam/slam_parts.h>
-#include <posidonia/posegraph/pose_graph.h>
 
 namespace posidonia
 {
@@ -29,17 +29,25 @@ class CSparseGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<TSlam
    private:
 	/** Takes over what is new in the map; true when that is a reason to optimise. */
 	bool follow();
+	void updateIncrementally();
+	/** The graph's poses to the map. */
+	void handOver();
+	/** The optimum of what is there, at the end of a run. */
+	void makeExact();
 
 	CPoseGraph m_pose_graph;
-	std::unique_ptr<CSparseOptimizer> m_optimizer;
+	std::unique_ptr<CIncrementalOptimizer> m_incremental;
+	std::unique_ptr<CSparseOptimizer> m_batch;
 	std::optional<CMarginals>
-		m_marginals;  // of the first m_marginal_nodes nodes, until the next optimisation
-	int m_marginal_nodes{0};
+		m_marginals;  // batch: of the first m_marginal_nodes nodes, until the next optimisation
+	int m_marginal_nodes{0}, m_followed_nodes{0};
 	bool m_just_optimized{false};
-	size_t m_revised_seen{0};  ///< Of the map's revised edges
+	size_t m_revised_seen{0};		   ///< Of the map's revised edges
+	std::vector<int> m_changed_edges;  ///< Since the last optimisation
 };
 
-/** The map as a pose graph: nodes at their present poses, the root fixed, robust losses on the stereo edges.
- */
-CPoseGraph toPoseGraph(const CSlamMap& map, const TGraphLossOptions& loss);
+/** The map as a pose graph: nodes at their present poses, the root fixed or with its prior, robust losses on
+ * the stereo edges, priors (default: edges alone). */
+CPoseGraph toPoseGraph(
+	const CSlamMap& map, const TGraphLossOptions& loss, const TPriorOptions& priors = TPriorOptions::none());
 }  // namespace posidonia

@@ -31,6 +31,7 @@ struct TSlamNode
 {
 	double stamp{0};											   ///< UTC [s]
 	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};  ///< The odometry's pose at `stamp`
+	TUnaryMeasurements measured{};								   ///< What was measured absolutely there
 	std::shared_ptr<const TKeyFrame> key_frame;	 ///< Null until an edge decider asked for it
 	std::vector<int> places{};	///< Of each of its points: the first of those at the same pixel
 };
@@ -100,7 +101,8 @@ class CSlamMap
 	 * count nothing, since they do not pass on the odometry's drift. */
 	std::vector<double> odometryMetresTo(int to) const;
 
-	std::vector<TCandidateRow> candidates;	///< Every pair that was considered, in order
+	Matrix6d root_covariance{Matrix6d::Zero()};	 ///< Of the first node's T_odom_body, over (rho, phi)
+	std::vector<TCandidateRow> candidates;		 ///< Every pair that was considered, in order
 
    private:
 	void setShare(int edge, double share);

@@ -125,6 +125,7 @@ struct TGraphLossOptions
 	std::string loss{"cauchy"};
 	double scale{4.0};
 	bool share_information{true};
+	bool incremental{true};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
@@ -133,8 +134,29 @@ struct TGraphLossOptions
 		v.number(
 			"loss_scale", scale, above(0), "Mahalanobis distance where the loss departs from quadratic [-]");
 		v.flag(
+			"incremental", incremental,
+			"Eliminates only what a new node changes; false: the whole graph, after each");
+		v.flag(
 			"share_information", share_information,
 			"Stereo edges made of the same points share their information; false: taken as independent");
+	}
+};
+
+/** Section [Priors]: what enters the graph beside increments and registrations (README, "Priors"). */
+struct TPriorOptions
+{
+	bool root{true}, depth{true}, roll_pitch{true}, heading{true}, position{true};
+
+	static TPriorOptions none() { return {false, false, false, false, false}; }
+
+	template <class VISITOR>
+	void visit(VISITOR& v)
+	{
+		v.flag("root", root, "The first node is held with the filter's covariance there; false: it is fixed");
+		v.flag("depth", depth, "Measured depths");
+		v.flag("roll_pitch", roll_pitch, "Measured roll and pitch");
+		v.flag("heading", heading, "Measured headings");
+		v.flag("position", position, "GPS fixes");
 	}
 };
 

@@ -5,10 +5,11 @@
 #include <posidonia/graphslam/slam_map.h>
 #include <posidonia/nav/odometry_source.h>
 #include <posidonia/obs/observations.h>
-#include <posidonia/posegraph/sparse_optimizer.h>
+#include <posidonia/posegraph/incremental_optimizer.h>
 #include <posidonia/vision/key_frame_extractor.h>
 #include <posidonia/vision/stereo_registration.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -25,7 +26,9 @@ struct TStereoSlamOptions
 	TFeatureOptions features;
 	TRegistrationOptions registration;
 	TOptimizerOptions optimizer;
+	TIncrementalOptions incremental;
 	TGraphLossOptions loss;
+	TPriorOptions priors;
 	TLevMarqOptions levmarq;
 
 	/** Online, each node brings a new graph: far below the noise is near enough (the next one starts from
@@ -34,6 +37,9 @@ struct TStereoSlamOptions
 	{
 		optimizer.min_relative_decrease = 1e-5;
 		optimizer.min_gradient = 0.02;
+		// A robust weight follows what moves by some sigmas of a stereo edge only if it is linearised anew.
+		incremental.relinearize_step = 0.005;
+		incremental.solve_tolerance = 1e-5;
 	}
 
 	/** Calls f("Section", its struct) for each. */
@@ -48,7 +54,9 @@ struct TStereoSlamOptions
 		f("Features", features);
 		f("Registration", registration);
 		f("GraphOptimizer", optimizer);
+		f("GraphOptimizer", incremental);
 		f("GraphOptimizer", loss);
+		f("Priors", priors);
 		f("OptimizerParameters", levmarq);
 	}
 };
@@ -91,7 +99,8 @@ struct TSlamParts
 	CSlamMap map;
 	CChainUncertainty chain_uncertainty;
 	CRelativeUncertainty* uncertainty{
-		&chain_uncertainty};  ///< The optimiser puts itself here if it has marginals
+		&chain_uncertainty};				  ///< The optimiser puts itself here if it has marginals
+	std::function<void()> make_exact{[] {}};  ///< Set by an optimiser whose poses are nearly exact
 	mutable mrpt::system::CTimeLogger timer{true, "stages", true};
 
 	/** The rig of a stereo observation's label, from the sensors.ini. Made at the first pair. */

@@ -30,17 +30,21 @@ struct TAttitudeMeasurement
 	Eigen::Matrix3d R_map_body{Eigen::Matrix3d::Identity()};
 	double sigma_roll_pitch{0};	 ///< e about north and about east [rad]
 	double sigma_heading{0};	 ///< e about down [rad]
+	/** Parts of these sigmas that do not change from reading to reading, and their correlation time [s]. */
+	double lasting_roll_pitch{0}, lasting_heading{0}, lasting_time{0};
 };
 /** A single number with its standard deviation. */
 struct TScalarMeasurement
 {
 	double value{0}, sigma{0};
+	double lasting{0}, lasting_time{0};	 ///< As in TAttitudeMeasurement
 };
 /** North and east of the body's origin. */
 struct THorizontalMeasurement
 {
-	Eigen::Vector2d value{0, 0};  ///< [m]
-	double sigma{0};			  ///< Each axis [m]
+	Eigen::Vector2d value{0, 0};		 ///< [m]
+	double sigma{0};					 ///< Each axis [m]
+	double lasting{0}, lasting_time{0};	 ///< As in TAttitudeMeasurement
 };
 
 /** What was measured absolutely at the present stamp: each the newest reading since the previous node, moved

@@ -89,6 +89,7 @@ class CIncrementalOptimizer
 	std::vector<int> orderOf(const CBayesTree::TTop& top);
 	std::vector<double> nearNewest(const std::vector<int>& order) const;
 	std::vector<int> ringsOf(const std::vector<int>& nodes) const;
+	double estimatedS(const TFactorNormal& normal) const;
 	TFactorNormal normalOf(const CPoseGraph& graph, int factor) const;
 	void solve(CPoseGraph& graph, TIncrementalResult& result);
 	void moveNode(CPoseGraph& graph, int node) const;
