@@ -9,12 +9,6 @@ find_package(Threads REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 
 # SuiteSparse has no CMake package in Debian 12.
-find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
-find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
-add_library(posidonia_cholmod INTERFACE)
-add_library(posidonia::cholmod ALIAS posidonia_cholmod)
-target_include_directories(posidonia_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
-target_link_libraries(posidonia_cholmod INTERFACE ${CHOLMOD_LIBRARY})
 find_path(AMD_INCLUDE_DIR amd.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(AMD_LIBRARY amd REQUIRED)
 find_library(CAMD_LIBRARY camd REQUIRED)
@@ -24,6 +18,13 @@ target_include_directories(posidonia_amd SYSTEM INTERFACE ${AMD_INCLUDE_DIR})
 target_link_libraries(posidonia_amd INTERFACE ${AMD_LIBRARY} ${CAMD_LIBRARY})
 
 if(POSIDONIA_BUILD_TESTS)
+	if(POSIDONIA_WITH_CHOLMOD)
+		find_library(CHOLMOD_LIBRARY cholmod REQUIRED)	# test oracle only
+		add_library(posidonia_cholmod INTERFACE)
+		add_library(posidonia::cholmod ALIAS posidonia_cholmod)
+		target_include_directories(posidonia_cholmod SYSTEM INTERFACE ${AMD_INCLUDE_DIR})
+		target_link_libraries(posidonia_cholmod INTERFACE ${CHOLMOD_LIBRARY})
+	endif()
 	find_package(GTest REQUIRED)
 	find_package(Ceres 2.1 REQUIRED)  # test oracle only
 endif()

@@ -41,7 +41,7 @@ TEST(Cli, VersionSaysTheLicences)
 		const TOutcome o = runProgram(app, "--version");
 		EXPECT_EQ(o.status, 0) << app << "\n" << o.all();
 		for (const char* part :
-			 {"Posidonia", "stereo graph-SLAM for AUVs, on MRPT", "BSD-3", "GPL", "CHOLMOD"})
+			 {"Posidonia", "stereo graph-SLAM for AUVs, on MRPT", "BSD-3-Clause", "SuiteSparse"})
 			EXPECT_HOLDS(o.out, part) << app;
 	}
 }

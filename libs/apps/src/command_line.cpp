@@ -15,9 +15,9 @@ std::string versionText()
 {
 	return std::string("Posidonia ") + kVersion +
 		   ": stereo graph-SLAM for AUVs, on MRPT\n"
-		   "Sources: BSD-3-Clause. This program links SuiteSparse's CHOLMOD, whose Supernodal, Modify and "
-		   "MatrixOps\n"
-		   "modules are GPL-2+: the binary as a whole falls under the GPL.\n";
+		   "BSD-3-Clause. SuiteSparse's AMD and CAMD (BSD-3) order the elimination; nothing of it that is "
+		   "GPL is "
+		   "linked.\n";
 }
 
 namespace
