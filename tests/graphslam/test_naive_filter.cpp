@@ -71,3 +71,38 @@ TEST(NaiveFilter, theJumpGateAsksNoCovariance)
 	setup.slam.gate.max_jump = 0.001;
 	EXPECT_GT(rowsWith(*run(setup), "refused by the jump gate"), 5);
 }
+
+TEST(RefusedPairs, areJudgedAgainWhenTheGraphHasMoved)
+{
+	// Drift of 30 mm/m, a quarter of it declared: the first loops are refused, until the sequential edges
+	// and later loops bring the graph nearer.
+	TSetup setup = strongDrift();
+	setup.slam.slam.edge_deciders = "CSequentialStereoERD CRoiStereoERD";
+	setup.corruption.drift_xy = 0.03;
+	setup.corruption.drift_z = 0.01;
+	setup.corruption.declared_factor = 0.25;
+	const auto with = run(setup);
+	setup.slam.gate.retry_moved = 0;
+	const auto without = run(setup);
+
+	const std::string kRetried = "accepted on retry";
+	std::printf(
+		"[   INFO   ] with retries: %d accepted so, %d refused, mean error %.3f m; without: %d refused, %.3f "
+		"m\n",
+		rowsWith(*with, kRetried), rowsWith(*with, kRefused), meanNodeError(*with),
+		rowsWith(*without, kRefused), meanNodeError(*without));
+	EXPECT_GT(rowsWith(*with, kRetried), 10);
+	EXPECT_EQ(rowsWith(*without, kRetried), 0);
+	EXPECT_LT(rowsWith(*with, kRefused), rowsWith(*without, kRefused));
+
+	for (const auto& row : with->map().candidates) {
+		if (row.status != kRetried) continue;
+		EXPECT_TRUE(row.measured);
+		EXPECT_FALSE(errorOfPair(*with, row.from, row.to, row.T_from_to).isFalse());
+		int edges = 0;
+		for (const auto& edge : with->map().edges())
+			edges += edge.from == row.from && edge.to == row.to && edge.kind == row.kind &&
+					 edge.T_from_to.matrix() == row.T_from_to.matrix();
+		EXPECT_EQ(edges, 1) << row.from << " to " << row.to;
+	}
+}

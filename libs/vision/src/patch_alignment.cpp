@@ -36,17 +36,18 @@ cv::Mat slope(const cv::Mat& image)
 	return out;
 }
 
-/** Catmull-Rom weights of the samples at -1, 0, 1, 2 for the place t in [0, 1). */
+/** Lagrange's weights of the samples at -1, 0, 1, 2 for the place t in [0, 1): exact for cubics. (Catmull-Rom
+ * is not: its error t (1 - t) (1 - 2 t) f''' / 6 is one of phase, 0.003 px at t = 0.15 and 1.5 px of
+ * smoothing.) */
 struct TCubic
 {
 	float w[4];
 	explicit TCubic(double t)
 	{
-		const double t2 = t * t, t3 = t2 * t;
-		w[0] = static_cast<float>(-0.5 * t + t2 - 0.5 * t3);
-		w[1] = static_cast<float>(1 - 2.5 * t2 + 1.5 * t3);
-		w[2] = static_cast<float>(0.5 * t + 2 * t2 - 1.5 * t3);
-		w[3] = static_cast<float>(-0.5 * t2 + 0.5 * t3);
+		w[0] = static_cast<float>(-t * (t - 1) * (t - 2) / 6);
+		w[1] = static_cast<float>((t + 1) * (t - 1) * (t - 2) / 2);
+		w[2] = static_cast<float>(-(t + 1) * t * (t - 2) / 2);
+		w[3] = static_cast<float>((t + 1) * t * (t - 1) / 6);
 	}
 };
 }  // namespace
