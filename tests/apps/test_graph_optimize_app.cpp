@@ -42,6 +42,21 @@ double meanError(const CPoseGraph& graph, const std::vector<Eigen::Isometry3d>& 
 	return sum / static_cast<double>(planted.size());
 }
 
+/** Three loops that join what lies far apart. */
+std::set<int> addWrongLoops(CPoseGraph& graph)
+{
+	std::set<int> wrong;
+	for (const auto& [from, to] : std::vector<std::pair<int, int>>{{3, 70}, {10, 90}, {25, 110}}) {
+		TPoseEdge edge;
+		edge.from = from;
+		edge.to = to;
+		edge.T_from_to.translation() << 0.5, 0.2, 0;
+		edge.information = 1e5 * Matrix6d::Identity();
+		wrong.insert(graph.addEdge(edge));
+	}
+	return wrong;
+}
+
 std::vector<std::vector<std::string>> csv(const std::string& path)
 {
 	std::vector<std::vector<std::string>> rows;
@@ -123,19 +138,25 @@ TEST(GraphOptimizeApp, StartsFromOdometryOrFromAnEdgeTree)
 	EXPECT_LT(meanError(app.graph(), survey.planted), 0.02);
 }
 
+TEST(GraphOptimizeApp, ChordalStartIsNearTheOptimumWhateverTheFileSays)
+{
+	const CTempFolder folder;
+	const TSyntheticGraph survey = smallSurvey();
+	CPoseGraph lost = survey.graph;
+	for (int i = 1; i < 120; i++)
+		lost.setPose(i, Eigen::Isometry3d::Identity());
+	CGraphOptimizeApp app;
+	runApp(app, {surveyFile(folder, lost), "--init", "chordal"});
+	EXPECT_EQ(app.results().start, "chordal initialisation");
+	EXPECT_LT(app.results().chi2_start, 0.1 * chi2(survey.graph)) << "better than the odometry's";
+	EXPECT_LT(meanError(app.graph(), survey.planted), 0.02);
+}
+
 TEST(GraphOptimizeApp, RobustLossFindsTheWrongLoops)
 {
 	const CTempFolder folder;
 	TSyntheticGraph survey = smallSurvey();
-	std::set<int> wrong;
-	for (const auto& [from, to] : std::vector<std::pair<int, int>>{{3, 70}, {10, 90}, {25, 110}}) {
-		TPoseEdge edge;
-		edge.from = from;
-		edge.to = to;
-		edge.T_from_to.translation() << 0.5, 0.2, 0;
-		edge.information = 1e5 * Matrix6d::Identity();
-		wrong.insert(survey.graph.addEdge(edge));
-	}
+	const std::set<int> wrong = addWrongLoops(survey.graph);
 	const std::string in = surveyFile(folder, survey.graph);
 	CGraphOptimizeApp plain, robust;
 	runApp(plain, {in});
@@ -157,6 +178,70 @@ TEST(GraphOptimizeApp, RobustLossFindsTheWrongLoops)
 	}
 	EXPECT_GE(robust.results().outliers, 3);
 	EXPECT_LE(robust.results().outliers, 3 + static_cast<int>(survey.graph.edgeCount()) / 50);
+}
+
+TEST(GraphOptimizeApp, GncKeepsOrRejectsEachLoop)
+{
+	const CTempFolder folder;
+	TSyntheticGraph survey = smallSurvey();
+	CGraphOptimizeApp clean, gnc;
+	runApp(clean, {surveyFile(folder, survey.graph)});
+	const std::set<int> wrong = addWrongLoops(survey.graph);
+	const std::string in = surveyFile(folder, survey.graph);
+	runApp(gnc, {in, "--robust", "gnc", "--weights", folder / "w.csv", "--marginals", folder / "m.csv"});
+	const auto& r = gnc.results();
+	EXPECT_TRUE(r.solution.converged) << r.solution.status;
+	EXPECT_GT(r.solution.rounds, 0);
+	EXPECT_NEAR(meanError(gnc.graph(), survey.planted), meanError(clean.graph(), survey.planted), 1e-3);
+	const auto rows = csv(folder / "w.csv");
+	ASSERT_EQ(rows.size(), survey.graph.edgeCount() + 1);
+	int rejected = 0;
+	double kept = 0;
+	for (size_t k = 0; k < survey.graph.edgeCount(); k++) {
+		const std::string& weight = rows[k + 1][3];
+		EXPECT_TRUE(weight == "0" || weight == "1") << "edge " << k << " " << weight;
+		if (wrong.count(static_cast<int>(k))) EXPECT_EQ(weight, "0") << "edge " << k;
+		rejected += weight == "0" ? 1 : 0;
+		kept += weight == "1" ? std::stod(rows[k + 1][4]) : 0;
+	}
+	EXPECT_EQ(r.outliers, rejected);
+	EXPECT_LE(rejected, 3 + static_cast<int>(survey.graph.edgeCount()) / 100) << "0.1 % expected";
+	EXPECT_NEAR(r.chi2_kept, kept, 1e-9 * kept);
+	EXPECT_GT(r.chi2_after, 10 * r.chi2_kept);
+	EXPECT_NEAR(r.reduced_chi2, 1, 0.12);
+
+	// The rejected edges do not count in the covariances either.
+	CPoseGraph without;
+	for (int i = 0; i < 120; i++)
+		without.addNode(gnc.graph().pose(i), i == 0);
+	for (size_t k = 0; k < survey.graph.edgeCount(); k++)
+		if (rows[k + 1][3] == "1") without.addEdge(survey.graph.edge(static_cast<int>(k)));
+	CSparseOptimizer optimizer;
+	const Matrix6d expected = optimizer.marginals(without).covarianceOf(60);
+	EXPECT_NEAR(std::stod(csv(folder / "m.csv")[60][1]), expected(0, 0), 1e-9 * expected(0, 0));
+}
+
+TEST(GraphOptimizeApp, OneAndTwoThreadsGiveTheSameBytes)
+{
+	const CTempFolder folder;
+	TLawnMower options;
+	options.nodes = 1500;  // enough for subtrees of their own
+	TSyntheticGraph survey = lawnMower(options);
+	addWrongLoops(survey.graph);
+	const std::string in = surveyFile(folder, survey.graph);
+	for (const std::string kernel : {"none", "gnc"}) {
+		for (const std::string threads : {"1", "2"}) {
+			CGraphOptimizeApp app;
+			runApp(
+				app, {in, "-o", folder / (threads + ".g2o"), "--robust", kernel, "--threads", threads,
+					  "--weights", folder / (threads + ".w"), "--marginals", folder / (threads + ".m")});
+			EXPECT_EQ(app.params.optimizer.threads, std::stoi(threads));
+		}
+		for (const std::string file : {".g2o", ".w", ".m"}) {
+			EXPECT_GT(fileBytes(folder / ("1" + file)).size(), 10000u) << kernel << file;
+			EXPECT_EQ(fileBytes(folder / ("1" + file)), fileBytes(folder / ("2" + file))) << kernel << file;
+		}
+	}
 }
 
 TEST(GraphOptimizeApp, MarginalsAreThoseOfTheDenseInverse)
@@ -304,6 +389,13 @@ TEST(GraphOptimizeApp, FlagsWithoutEffectAreRefused)
 	EXPECT_HOLDS(refusal({in, "--robust-scale", "3"}), "--robust-scale: has no effect without --robust");
 	EXPECT_HOLDS(refusal({in, "--robust", "huber", "--robust-scale", "0"}), "--robust-scale: must be > 0");
 	EXPECT_HOLDS(refusal({in, "--robust", "huber", "--solver", "levmarq"}), "no robust losses");
+	EXPECT_HOLDS(
+		refusal({in, "--robust", "gnc", "--robust-scale", "3"}),
+		"--robust-scale: has no effect with --robust gnc");
+	EXPECT_HOLDS(refusal({in, "--robust", "gnc", "--solver", "incremental"}), "needs the whole graph");
+	EXPECT_HOLDS(refusal({in, "--threads", "2", "--solver", "levmarq"}), "has one only");
+	for (const std::string threads : {"0", "-1", "65"})
+		EXPECT_HOLDS(refusal({in, "--threads", threads}), "--threads " + threads + ": is not 1 to 64");
 	EXPECT_HOLDS(refusal({in, "--init", "odometry", "--solver", "incremental"}), "--init: has no effect");
 	EXPECT_HOLDS(refusal({in, "--solver", "magic"}), "solver");
 	EXPECT_HOLDS(refusal({in, "-o", in}), "is the input itself");

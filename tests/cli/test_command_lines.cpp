@@ -18,8 +18,8 @@ TEST(Cli, HelpNamesTheFlagsAndTheExitStatus)
 		 {"-i", "--input", "--format", "euroc|dvl-gt-csv", "--skip-bad", "--level", "--cubic", "--overwrite",
 		  "--attitude-noise", "--attitude-bias", "--attitude-bias-time", "--seed"}},
 		{"auv-graph-optimize",
-		 {"IN.g2o", "--solver", "incremental", "--init", "odometry", "--robust", "dcs", "--robust-scale",
-		  "--weights", "--marginals", "--json", "Exit status 3"}}};
+		 {"IN.g2o", "--solver", "incremental", "--init", "odometry", "chordal", "--robust", "dcs", "gnc",
+		  "--robust-scale", "--threads", "--weights", "--marginals", "--json", "Exit status 3"}}};
 	for (const auto& app : allApps())
 		for (const char* flag : {"--help", "-h"}) {
 			const TOutcome o = runProgram(app, flag);

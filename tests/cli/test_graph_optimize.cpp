@@ -49,6 +49,22 @@ TEST(GraphOptimizeCli, JsonIsOneObject)
 	EXPECT_TRUE(json.at("converged").get<bool>());
 }
 
+TEST(GraphOptimizeCli, EveryStartKernelAndSolverRuns)
+{
+	const CTempFolder folder;
+	const std::string in = folder.write("in.g2o", triangle());
+	for (const char* start : {"file", "odometry", "chordal"})
+		for (const char* kernel : {"none", "huber", "cauchy", "dcs", "gnc"}) {
+			const std::string flags = std::string(" --init ") + start + " --robust " + kernel;
+			const TOutcome o = runProgram(kApp, in + flags + " --threads 2");
+			EXPECT_EQ(o.status, 0) << flags << "\n" << o.all();
+			EXPECT_HOLDS(o.out, "chi2 before 0.09") << flags;
+			EXPECT_HOLDS(o.out, "after 0.03") << flags;
+		}
+	for (const char* solver : {"incremental", "levmarq"})
+		EXPECT_HOLDS(runProgram(kApp, in + " --solver " + solver).out, "after 0.03") << solver;
+}
+
 TEST(GraphOptimizeCli, NotConvergedEndsWithThree)
 {
 	const CTempFolder folder;
@@ -83,7 +99,8 @@ TEST(GraphOptimizeCli, BadInputIsNamedAndNothingIsWritten)
 		{"apart.g2o: node 3", "order of their ids"});
 	expectError(
 		kApp, folder.write("in.g2o", triangle()) + " -o " + (folder / "no/out.g2o"), 1, {"no/out.g2o"});
-	for (const char* flag : {"--solver magic", "--init magic", "--robust magic"})
+	for (const char* flag :
+		 {"--solver magic", "--init magic", "--robust magic", "--threads 0", "--threads many"})
 		expectError(kApp, (folder / "in.g2o") + " " + flag, 2, {kApp + std::string(" --help")});
 	for (const char* name : {"out.g2o", "out.g2o.part", "m.csv", "w.csv"})
 		EXPECT_FALSE(fs::exists(folder / name)) << name;

@@ -4,6 +4,7 @@
 #include <posidonia/eval/text_table.h>
 #include <posidonia/posegraph/chi2.h>
 #include <posidonia/posegraph/g2o_file.h>
+#include <posidonia/posegraph/multifrontal_cholesky.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -56,16 +57,30 @@ void refuseBadOutput(const CGraphOptimizeApp::TParams& params)
 		throw CUsageError("-o " + out, "is the input itself, which would be lost", "give another name");
 }
 
-void refuseFlagsWithoutEffect(const CGraphOptimizeApp::TParams& params, bool scale_given)
+void refuseFlagsWithoutEffect(const CGraphOptimizeApp::TParams& params, bool scale_given, bool threads_given)
 {
-	const bool robust = params.robust.kernel != "none";
-	if (scale_given && !robust)
-		throw CUsageError("--robust-scale", "has no effect without --robust", "leave it out");
+	const std::string& kernel = params.robust.kernel;
+	const bool robust = kernel != "none";
+	if (scale_given && !takesScale(kernel))
+		throw CUsageError(
+			"--robust-scale", "has no effect " + (robust ? "with --robust " + kernel : "without --robust"),
+			"leave it out");
 	if (!(params.robust.scale > 0)) throw CUsageError("--robust-scale", "must be > 0", "give another number");
 	if (params.solver == "incremental" && params.start != "file")
 		throw CUsageError("--init", "has no effect with --solver incremental", "leave it out");
 	if (robust && params.solver == "levmarq")
 		throw CUsageError("--robust", "MRPT's levmarq has no robust losses", "use --solver batch");
+	if (kernel == "gnc" && params.solver == "incremental")
+		throw CUsageError("--robust gnc", "needs the whole graph", "use --solver batch");
+	if (threads_given && params.solver == "levmarq")
+		throw CUsageError("--threads", "MRPT's levmarq has one only", "leave it out");
+}
+
+int checkedThreads(int threads)
+{
+	if (threads < 1 || threads > 64)
+		throw CUsageError("--threads " + std::to_string(threads), "is not 1 to 64", "give another number");
+	return threads;
 }
 
 size_t freeNodesOf(const CPoseGraph& graph)
@@ -76,10 +91,10 @@ size_t freeNodesOf(const CPoseGraph& graph)
 	return free;
 }
 
-double reducedChi2(const CPoseGraph& graph, double chi2)
+double reducedChi2(const CPoseGraph& graph, double chi2, size_t edges)
 {
 	const double free = static_cast<double>(freeNodesOf(graph));
-	const double redundancy = 6 * (static_cast<double>(graph.edgeCount()) - free);
+	const double redundancy = 6 * (static_cast<double>(edges) - free);
 	return redundancy > 0 ? chi2 / redundancy : 0;
 }
 
@@ -107,7 +122,7 @@ bool CGraphOptimizeApp::initialize(int argc, const char* const* argv)
 		"before and after,\n"
 		"iterations, why it stopped, times and memory. Of the ini only the solver's keys of [GraphOptimizer] "
 		"are used (method,\n"
-		"max_iterations, min_...).\n"
+		"max_iterations, min_..., threads).\n"
 		"Example: auv-graph-optimize in.g2o -o out.g2o --init odometry --robust cauchy --json\n"
 		"Exit status 3: the solver did not converge; the files are written and hold what it reached.",
 		"The optimised graph, g2o, with the input's ids and edges (here a file, not a folder)", "OUT.g2o");
@@ -121,11 +136,19 @@ bool CGraphOptimizeApp::initialize(int argc, const char* const* argv)
 		"MRPT's own, for comparison",
 		graphSolverNames(), cmd);
 	CChoiceFlag start(
-		"init", "Start poses: the file's, or composed along the odometry", graphStartNames(), cmd);
-	CChoiceFlag robust("robust", "Loss of the edges that are not odometry", robustKernelNames(), cmd);
+		"init",
+		"Start poses: the file's, composed along the odometry, or by chordal initialisation from all edges",
+		graphStartNames(), cmd);
+	CChoiceFlag robust(
+		"robust",
+		"Loss of the edges that are not odometry; gnc: graduated non-convexity, keeps or rejects each whole",
+		robustKernelNames(), cmd);
 	TCLAP::ValueArg<double> scale(
 		"", "robust-scale", "Mahalanobis distance where the robust loss departs from quadratic (default: 4)",
 		false, params.robust.scale, "S", cmd);
+	TCLAP::ValueArg<int> threads(
+		"", "threads", "Subtrees eliminated at a time, 1 to 64; the result is the same (default: 1)", false,
+		1, "N", cmd);
 	TCLAP::ValueArg<std::string> weights(
 		"", "weights", "Write edge,from,to,weight,chi2 of every edge", false, "", "FILE.csv", cmd);
 	TCLAP::ValueArg<std::string> marginals(
@@ -150,12 +173,13 @@ bool CGraphOptimizeApp::initialize(int argc, const char* const* argv)
 	params.output = line.outputDir();
 	params.solver = solver.value();
 	params.start = start.value();
+	if (threads.isSet()) params.optimizer.threads = checkedThreads(threads.getValue());
 	params.robust = {robust.value(), scale.getValue()};
 	params.weights_file = weights.getValue();
 	params.marginals_file = marginals.getValue();
 	params.json = json.getValue();
 	m_verbosity = line.verbosity();
-	refuseFlagsWithoutEffect(params, scale.isSet());
+	refuseFlagsWithoutEffect(params, scale.isSet(), threads.isSet());
 	refuseBadOutput(params);
 	return true;
 }
@@ -188,19 +212,31 @@ void CGraphOptimizeApp::optimize(CStageMeter& meter)
 	r.solution = solveGraph(graph, params.solver, params.optimizer, params.robust);
 	meter.end("optimise");
 	r.cost = meter.sum({"initialise", "optimise"});
-	r.chi2_after = chi2(graph);
-	r.reduced_chi2 = reducedChi2(graph, r.chi2_after);
-	const auto& weights = r.solution.edge_weights;
-	r.outliers = static_cast<int>(
-		std::count_if(weights.begin(), weights.end(), [](double w) { return w < kOutlierWeight; }));
+	evaluate();
 	meter.end("evaluate");
+}
+
+void CGraphOptimizeApp::evaluate()
+{
+	TResults& r = m_results;
+	const std::vector<double> s = edgesMahalanobis2(m_file.graph);
+	for (size_t k = 0; k < s.size(); k++) {
+		const bool outlier = r.solution.edge_weights[k] < kOutlierWeight;
+		r.chi2_after += s[k];
+		if (outlier)
+			r.outliers++;
+		else
+			r.chi2_kept += s[k];
+	}
+	r.reduced_chi2 = reducedChi2(m_file.graph, r.chi2_kept, s.size() - static_cast<size_t>(r.outliers));
 }
 
 void CGraphOptimizeApp::writeFiles(CStageMeter& meter)
 {
 	std::vector<Matrix6d> covariances;
 	if (!params.marginals_file.empty()) {
-		namingTheFile(m_file, params.input, [&] { covariances = marginalsOfAllNodes(m_file.graph); });
+		namingTheFile(
+			m_file, params.input, [&] { covariances = marginalsOfAllNodes(m_file.graph, params.optimizer); });
 		meter.end("marginals");
 		writeMarginals(params.marginals_file, m_file, covariances);
 	}
@@ -228,14 +264,19 @@ std::string CGraphOptimizeApp::text(const CStageMeter& meter) const
 {
 	const TResults& r = m_results;
 	const auto g = [](double x) { return significantText(x, 10); };
+	const bool robust = params.robust.kernel != "none";
 	std::string out = params.input + ": " + std::to_string(r.nodes) + " nodes, " + std::to_string(r.edges) +
 					  " edges\nsolver " + params.solver + ", start from " + r.start + ", robust loss " +
 					  params.robust.kernel + "\n";
+	const std::string reduced = significantText(r.reduced_chi2, 4) + " a degree of freedom";
 	out += "chi2 before " + g(r.chi2_before) + ", at the start " + g(r.chi2_start) + ", after " +
-		   g(r.chi2_after) + " (" + significantText(r.reduced_chi2, 4) + " a degree of freedom)\n";
+		   g(r.chi2_after) + (robust ? "\n" : " (" + reduced + ")\n");
+	if (robust)
+		out += std::to_string(r.outliers) +
+			   " edges held for outliers (weight below 0.5); chi2 of the others " + g(r.chi2_kept) + " (" +
+			   reduced + ")\n";
 	out += r.solution.status + " after " + std::to_string(r.solution.iterations) + " iterations";
-	if (params.robust.kernel != "none")
-		out += ", " + std::to_string(r.outliers) + " edges held for outliers (weight below 0.5)";
+	if (r.solution.rounds > 0) out += " in the last of " + std::to_string(r.solution.rounds) + " rounds";
 	CTextTable table({"stage", "CPU [s]", "wall [s]"});
 	for (const auto& stage : meter.stages())
 		if (stage.name != "evaluate")
@@ -250,6 +291,7 @@ std::string CGraphOptimizeApp::jsonText(const CStageMeter& meter) const
 		{"chi2_before", r.chi2_before},
 		{"chi2_start", r.chi2_start},
 		{"chi2_after", r.chi2_after},
+		{"chi2_kept", r.chi2_kept},
 		{"reduced_chi2", r.reduced_chi2},
 		{"iterations", r.solution.iterations},
 		{"status", r.solution.status},
@@ -260,6 +302,9 @@ std::string CGraphOptimizeApp::jsonText(const CStageMeter& meter) const
 		{"init", params.start},
 		{"robust", params.robust.kernel},
 		{"outliers", r.outliers},
+		{"rounds", r.solution.rounds},
+		{"threads", params.optimizer.threads},
+		{"simd", simdName()},
 		{"cpu_s", r.cost.cpu},
 		{"wall_s", r.cost.wall},
 		{"peak_memory_mb", r.peak_memory_mb}};

@@ -21,11 +21,12 @@ bool hasAnchor(const CPoseGraph& graph)
 }
 
 /** A round needs to follow its optimum, not to reach it. */
-TOptimizerOptions coarseOptions()
+TOptimizerOptions coarseOptions(int threads)
 {
 	TOptimizerOptions options;
 	options.max_iterations = 5;
 	options.min_relative_decrease = 1e-3;
+	options.threads = threads;
 	return options;
 }
 }  // namespace
@@ -59,7 +60,7 @@ double gncWeight(double s, double threshold2, double mu)
 CGraduatedNonconvexity::CGraduatedNonconvexity(const TGncOptions& options, const TOptimizerOptions& final)
 	: m_options(options),
 	  m_threshold2(chiSquare6Quantile(options.inlier_probability)),
-	  m_coarse(coarseOptions()),
+	  m_coarse(coarseOptions(final.threads)),
 	  m_final(final)
 {
 }

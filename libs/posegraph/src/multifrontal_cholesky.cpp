@@ -10,6 +10,11 @@
 
 namespace posidonia
 {
+const char* simdName()
+{
+	return frontKernels().name;
+}
+
 CMultifrontalCholesky::CMultifrontalCholesky(int threads) : m_threads(threads), m_kernels(frontKernels()) {}
 
 const std::vector<int>& CMultifrontalCholesky::order(

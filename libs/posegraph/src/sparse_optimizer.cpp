@@ -52,7 +52,7 @@ int TOptimizerResult::downWeightedEdges() const
 }
 
 CSparseOptimizer::CSparseOptimizer(const TOptimizerOptions& options)
-	: m_options(options), m_gauss_newton(options.method == "gauss-newton")
+	: m_options(options), m_gauss_newton(options.method == "gauss-newton"), m_cholesky(options.threads)
 {
 	if (!m_gauss_newton && options.method != "levenberg-marquardt")
 		throw CError(

@@ -36,7 +36,8 @@ class CGraphOptimizeApp
 		double chi2_before{0};	///< Plain chi2 of the file's poses
 		double chi2_start{0};	///< After --init
 		double chi2_after{0};
-		double reduced_chi2{0};	 ///< chi2_after a degree of freedom; 0 without redundancy
+		double chi2_kept{0};	 ///< chi2_after of the edges that are no outliers
+		double reduced_chi2{0};	 ///< chi2_kept a degree of freedom that these leave; 0 without redundancy
 		size_t nodes{0}, edges{0};
 		int outliers{0};		   ///< Edges of weight below one half
 		std::string start;		   ///< What --init did
@@ -48,6 +49,7 @@ class CGraphOptimizeApp
 
    private:
 	void optimize(CStageMeter& meter);
+	void evaluate();
 	void writeFiles(CStageMeter& meter);
 	void report(const CStageMeter& meter) const;
 	std::string text(const CStageMeter& meter) const;

@@ -8,6 +8,10 @@ namespace posidonia
 {
 struct TFrontKernels;
 
+/** The SIMD kernels in use: "sse2", "avx2" or "avx512"; the best for this CPU, or those that the environment
+ * variable POSIDONIA_SIMD names. Results differ in the last bits between them. */
+const char* simdName();
+
 /** H = L L^T of a symmetric matrix of 6x6 blocks by multifrontal elimination (Duff, Reid 1983; Liu 1992):
  * each clique of the elimination forest is a small dense matrix that its children are summed into. SIMD
  * kernels are chosen at run time. Ordering and symbolic analysis are done once a pattern; factorising

@@ -16,6 +16,7 @@ struct TOptimizerOptions
 	double min_step{1e-9};
 	double min_gradient{1e-9};
 	double initial_damping{1e-9};
+	int threads{1};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
@@ -34,6 +35,8 @@ struct TOptimizerOptions
 		v.number(
 			"initial_damping", initial_damping, above(0),
 			"First Levenberg-Marquardt damping, relative to the diagonal of H [-]");
+		v.integer(
+			"threads", threads, between(1, 64), "Subtrees eliminated at a time; results do not depend on it");
 	}
 };
 
