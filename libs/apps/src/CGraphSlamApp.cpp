@@ -66,6 +66,7 @@ void CGraphSlamApp::run()
 		std::make_unique<CStereoImageLoader>(m_input.rawlog), m_folder->file("config.ini"));
 	const TSilencedAtEnd silenced{slam.timer()};
 	replay(slam, reader);
+	slam.makeExact();
 	collect(slam, reader);
 	writeResults(slam);
 	logSummary(slam, reader, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -107,7 +108,6 @@ void CGraphSlamApp::collect(const CStereoSlam& slam, const CRawlogReader& reader
 				std::string(
 					slam.odometry().ready() ? "it holds no stereo pair" : "the odometry never became ready"),
 			"check its sensors with rawlog-edit --info, and [InitialPose]");
-	slam.makeExact();
 	m_results.trajectories.nodes = slam.nodes();
 	m_results.nodes = slam.map().nodeCount();
 	for (const auto& edge : slam.map().edges()) {
