@@ -40,7 +40,8 @@ CPoseGraph largeGraph()
 	}
 	out.graph.addPrior(priorOn(7, EPriorKind::FullPose, out.planted[7], 0.1));
 	const int error = out.graph.addErrorVariable(Vector6d::Zero(), 1e4 * Matrix6d::Identity());
-	for (int k = 0; k < int(out.graph.edgeCount()); k++) {
+	const int measured = int(out.graph.edgeCount());
+	for (int k = 0; k < measured; k++) {
 		TPoseEdge edge = out.graph.edge(k);
 		if (edge.to % 50 != 1) continue;
 		edge.error_variable = error;
