@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <posidonia/posegraph/g2o_file.h>
+#include <posidonia/posegraph/incremental_optimizer.h>
 #include <posidonia/posegraph/sparse_optimizer.h>
+
+#include "arrival.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -43,4 +46,26 @@ TEST_P(PublicGraphs, ReachTheKnownOptimum)
 		EXPECT_NEAR(result.after.plain, GetParam().optimum, 1e-6 * GetParam().optimum) << method;
 		EXPECT_LE(result.iterations, 12) << method;
 	}
+}
+
+/** A node every now and then is compared; sphere2500's noise is large, so much is linearised anew. */
+TEST(PublicGraph, ArrivingNodeByNodeStaysAtTheBatchOptimum)
+{
+	const std::string path = pathOf("sphere2500");
+	if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set POSIDONIA_DATA";
+	const CPoseGraph whole = readG2o(path).graph;
+	posidonia::testing::CArrival arrival(whole);
+	CIncrementalOptimizer optimizer;
+	while (arrival.graph.nodeCount() < 400) {
+		const int node = arrival.addNode();
+		optimizer.update(arrival.graph);
+		if (node % 100 != 99) continue;
+		CPoseGraph batch = arrival.graph;
+		CSparseOptimizer().optimize(batch);
+		EXPECT_LE(chi2(arrival.graph), 1.001 * chi2(batch)) << "after node " << node;
+	}
+	CPoseGraph batch = arrival.graph;
+	CSparseOptimizer().optimize(batch);
+	optimizer.refine(arrival.graph);
+	EXPECT_NEAR(chi2(arrival.graph), chi2(batch), 1e-6 * chi2(batch));
 }

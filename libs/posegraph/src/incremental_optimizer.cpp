@@ -20,8 +20,9 @@ TIncrementalResult CIncrementalOptimizer::update(
 	followNodes(graph);
 	followFactors(graph, result);
 	relinearizeMoved(result);
-	if (!eliminate(graph, result)) {
+	if (eliminate(graph, result) >= 0) {
 		// The linear model of the cliques may fail where the batch optimiser's damping does not.
+		takeAllOut(graph);
 		refine(graph);
 		result.rebuilt = true;
 		return result;
@@ -113,7 +114,8 @@ void CIncrementalOptimizer::relinearize(int node)
 		m_tree.touch(m_tree.cliqueOfFactor(factor));
 }
 
-bool CIncrementalOptimizer::eliminate(const CPoseGraph& graph, TIncrementalResult& result)
+/** The node where H is not positive definite, else -1. */
+int CIncrementalOptimizer::eliminate(const CPoseGraph& graph, TIncrementalResult& result)
 {
 	result.work = m_tree.touchedWork();
 	CBayesTree::TTop top = m_tree.takeTop();
@@ -123,10 +125,9 @@ bool CIncrementalOptimizer::eliminate(const CPoseGraph& graph, TIncrementalResul
 	m_new_factors.clear();
 	result.eliminated = int(top.nodes.size());
 	const std::vector<int> order = orderOf(top);
-	const int failed = m_tree.eliminate(
+	return m_tree.eliminate(
 		top, order, nearNewest(order), [&](int factor) { return m_factor_nodes[factor]; },
 		[&](int factor) { return normalOf(graph, factor); });
-	return failed < 0;
 }
 
 /** Minimum degree from ring to ring, the outermost first. */
@@ -186,6 +187,7 @@ std::vector<int> CIncrementalOptimizer::ringsOf(const std::vector<int>& nodes) c
  * variables at once. */
 std::vector<double> CIncrementalOptimizer::nearNewest(const std::vector<int>& order) const
 {
+	if (order.empty()) return {};
 	int newest = int(m_d.size()) - 1;
 	while (newest > 0 && m_kinds[newest] != ENodeKind::Pose)
 		newest--;
@@ -259,6 +261,9 @@ void CIncrementalOptimizer::moveNode(CPoseGraph& graph, int node) const
 
 TOptimizerResult CIncrementalOptimizer::refine(CPoseGraph& graph)
 {
+	TIncrementalResult ignored;
+	followNodes(graph);
+	followFactors(graph, ignored);
 	const TOptimizerResult result = m_batch.optimize(graph);
 	rebuild(graph);
 	return result;
@@ -266,6 +271,22 @@ TOptimizerResult CIncrementalOptimizer::refine(CPoseGraph& graph)
 
 /** A whole elimination at the graph's present states. */
 void CIncrementalOptimizer::rebuild(const CPoseGraph& graph)
+{
+	takeAllOut(graph);
+	TIncrementalResult ignored;
+	const int failed = eliminate(graph, ignored);
+	if (failed >= 0) {
+		takeAllOut(graph);
+		throw CError(
+			describeNode(graph, failed), "the information matrix is singular to working precision there",
+			"look for edges of weight zero or very unequal information");
+	}
+	m_tree.solve(Vector6d::Zero(), m_d);
+}
+
+/** Everything waits for the next elimination, at the graph's present states; also after an error, so that the
+ * caller may mend the graph and go on. */
+void CIncrementalOptimizer::takeAllOut(const CPoseGraph& graph)
 {
 	m_tree.clear();
 	m_linearization = graph.states();
@@ -279,12 +300,6 @@ void CIncrementalOptimizer::rebuild(const CPoseGraph& graph)
 	}
 	for (int factor = 0; factor < int(m_factors.size()); factor++)
 		if (m_factor_nodes[factor].count > 0) m_new_factors.push_back(factor);
-	TIncrementalResult ignored;
-	if (!eliminate(graph, ignored))
-		throw CError(
-			"pose graph", "the information matrix is singular to working precision",
-			"look for edges of very unequal information");
-	m_tree.solve(Vector6d::Zero(), m_d);
 }
 
 CMarginals CIncrementalOptimizer::marginals() const

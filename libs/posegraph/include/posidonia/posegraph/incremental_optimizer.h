@@ -58,7 +58,8 @@ class CIncrementalOptimizer
 	/** Takes over what the graph has more than at the last call, and factors of known numbers that have other
 	 * values now; moves the graph's nodes. A node's fixed flag counts when it is first seen.
 	 * @param changed_edges, changed_priors replaced by setEdge(), setPrior(), setLoss() since the last call
-	 * @throws CError as CSparseOptimizer for what cannot be solved */
+	 * @throws CError as CSparseOptimizer for what cannot be solved; once the graph is mended the next call
+	 * goes on */
 	TIncrementalResult update(
 		CPoseGraph& graph, const std::vector<int>& changed_edges = {},
 		const std::vector<int>& changed_priors = {});
@@ -85,7 +86,7 @@ class CIncrementalOptimizer
 	void touchChanged(const std::vector<int>& edges, const std::vector<int>& priors);
 	void relinearizeMoved(TIncrementalResult& result);
 	void relinearize(int node);
-	bool eliminate(const CPoseGraph& graph, TIncrementalResult& result);
+	int eliminate(const CPoseGraph& graph, TIncrementalResult& result);
 	std::vector<int> orderOf(const CBayesTree::TTop& top);
 	std::vector<double> nearNewest(const std::vector<int>& order) const;
 	std::vector<int> ringsOf(const std::vector<int>& nodes) const;
@@ -94,6 +95,7 @@ class CIncrementalOptimizer
 	void solve(CPoseGraph& graph, TIncrementalResult& result);
 	void moveNode(CPoseGraph& graph, int node) const;
 	void rebuild(const CPoseGraph& graph);
+	void takeAllOut(const CPoseGraph& graph);
 
 	TIncrementalOptions m_options;
 	CSparseOptimizer m_batch;
