@@ -98,6 +98,7 @@ void CMultifrontalCholesky::chooseTasks()
 		if (small && (parent < 0 || work[parent] > kShare * total)) m_subtrees.push_back({first[c], c + 1});
 		if (!small) m_top.push_back({c, c + 1});
 	}
+	m_failures.assign(m_subtrees.size(), -1);
 }
 
 /** Where each clique leaves its rest until the parent has summed it: found once, since the order of events is
@@ -127,11 +128,11 @@ void CMultifrontalCholesky::placeRests()
 bool CMultifrontalCholesky::factorize(const CBlockMatrix& H, const Eigen::VectorXd& b)
 {
 	m_factorizations++;
-	std::vector<int> failed(m_subtrees.size(), -1);
+	std::fill(m_failures.begin(), m_failures.end(), -1);
 	std::atomic<size_t> next{0};
 	const auto work = [&] {
 		for (size_t k = next++; k < m_subtrees.size(); k = next++)
-			eliminateRange(m_subtrees[k], H, b, failed[k]);
+			eliminateRange(m_subtrees[k], H, b, m_failures[k]);
 	};
 	std::vector<std::thread> others;
 	for (int t = 1; t < m_threads && t < int(m_subtrees.size()); t++)
@@ -139,7 +140,7 @@ bool CMultifrontalCholesky::factorize(const CBlockMatrix& H, const Eigen::Vector
 	work();
 	for (auto& thread : others)
 		thread.join();
-	for (const int f : failed)
+	for (const int f : m_failures)
 		if (f >= 0) return m_failed = f, false;
 	for (const TTask& task : m_top)
 		if (!eliminateRange(task, H, b, m_failed)) return false;

@@ -78,6 +78,7 @@ class CMultifrontalCholesky
 	std::vector<size_t> m_rows_at, m_panel_at, m_rest_at;
 	CLargeBuffer m_panels, m_rests;
 	Eigen::VectorXd m_x, m_local;
+	std::vector<int> m_failures;  ///< of each subtree: the block column where it broke down, or -1
 	int m_failed{-1};
 	size_t m_analyses{0}, m_factorizations{0};
 };
