@@ -33,7 +33,7 @@ void CDistanceNRD::registerRoot(double stamp)
 {
 	const TPoseEstimate start = m_parts->odometry.now();  // map and odom start equal
 	m_parts->map.root_covariance = start.cov;
-	m_parts->map.addNode({stamp, start.T, {}, {}}, start.T);
+	m_parts->map.addNode({stamp, start.T, {}, {}, {}}, start.T);
 }
 
 void CDistanceNRD::registerNode(double stamp, const TPoseEstimate& since_node)
@@ -41,7 +41,7 @@ void CDistanceNRD::registerNode(double stamp, const TPoseEstimate& since_node)
 	CSlamMap& map = m_parts->map;
 	const int from = map.lastNode();
 	map.addNode(
-		{stamp, m_parts->odometry.now().T, m_parts->odometry.unary(), {}}, map.pose(from) * since_node.T);
+		{stamp, m_parts->odometry.now().T, {}, {}, m_parts->odometry.unary()}, map.pose(from) * since_node.T);
 	map.addEdge(
 		{from, from + 1, EEdgeKind::ODOMETRY, since_node.T, since_node.cov.inverse(),
 		 since_node.path_length});

@@ -31,9 +31,9 @@ struct TSlamNode
 {
 	double stamp{0};											   ///< UTC [s]
 	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};  ///< The odometry's pose at `stamp`
-	TUnaryMeasurements measured{};								   ///< What was measured absolutely there
 	std::shared_ptr<const TKeyFrame> key_frame;	 ///< Null until an edge decider asked for it
-	std::vector<int> places{};	///< Of each of its points: the first of those at the same pixel
+	std::vector<int> places{};		///< Of each of its points: the first of those at the same pixel
+	TUnaryMeasurements measured{};	///< What was measured absolutely there
 };
 
 /** A constraint T_from_to between two nodes with its information over (rho, phi). */
