@@ -200,7 +200,9 @@ TEST(GraphOptimizeApp, GncKeepsOrRejectsEachLoop)
 	for (size_t k = 0; k < survey.graph.edgeCount(); k++) {
 		const std::string& weight = rows[k + 1][3];
 		EXPECT_TRUE(weight == "0" || weight == "1") << "edge " << k << " " << weight;
-		if (wrong.count(static_cast<int>(k))) EXPECT_EQ(weight, "0") << "edge " << k;
+		if (wrong.count(static_cast<int>(k))) {
+			EXPECT_EQ(weight, "0") << "edge " << k;
+		}
 		rejected += weight == "0" ? 1 : 0;
 		kept += weight == "1" ? std::stod(rows[k + 1][4]) : 0;
 	}

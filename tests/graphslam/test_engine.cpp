@@ -47,7 +47,8 @@ TEST(Engine, firstNodeIsTheFirstPairAtTheOdometrysPose)
 	const CStereoSlam& slam = defaultRun();
 	const TSlamNode& root = slam.map().node(0);
 	EXPECT_EQ(root.stamp, survey().pair_stamps.front());
-	EXPECT_LT(localCoordinates(root.T_odom_body, slam.map().pose(0)).norm(), 1e-12);
+	// Its prior, with the filter's covariance there, lets the graph move it a little.
+	EXPECT_LT(localCoordinates(root.T_odom_body, slam.map().pose(0)).norm(), 0.05);
 	EXPECT_LT((slam.map().pose(0).translation() - Eigen::Vector3d(-1.5, -1.5, 3.5)).norm(), 0.02);
 	ASSERT_NE(root.key_frame, nullptr);
 	EXPECT_GT(root.key_frame->size(), 50u);

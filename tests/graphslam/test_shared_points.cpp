@@ -198,14 +198,16 @@ TEST(SlamMapShares, theOptimisersGraphFollows)
 		shared += edge.share < 0.5;
 	}
 	EXPECT_GT(shared, 100);
-	CPoseGraph graph = toPoseGraph(slam.map(), TGraphLossOptions());
+	CPoseGraph graph = toPoseGraph(slam.map(), TGraphLossOptions(), TPriorOptions());
 	CSparseOptimizer optimizer;
 	optimizer.optimize(graph);
 	double farthest = 0;
 	for (int i = 0; i < slam.map().nodeCount(); i++)
 		farthest =
 			std::max(farthest, (graph.pose(i).translation() - slam.map().pose(i).translation()).norm());
-	EXPECT_LT(farthest, 2e-4);
+	// The incremental optimiser, before makeExact(); robust weights are refreshed where something is
+	// eliminated anew.
+	EXPECT_LT(farthest, 5e-3);
 }
 
 TEST(SlamMapShares, offIsIndependentEdges)

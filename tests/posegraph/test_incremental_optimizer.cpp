@@ -38,7 +38,7 @@ TIncrementalOptions tight()
 	TIncrementalOptions options;
 	options.relinearize_step = 1e-5;
 	options.solve_tolerance = 1e-8;
-	options.max_work = 1;	// of a dense little graph one node takes nearly all with it
+	options.max_work = 1;  // of a dense little graph one node takes nearly all with it
 	return options;
 }
 
