@@ -99,9 +99,9 @@ TEST(GraphOptimizeCli, BadInputIsNamedAndNothingIsWritten)
 		{"apart.g2o: node 3", "order of their ids"});
 	expectError(
 		kApp, folder.write("in.g2o", triangle()) + " -o " + (folder / "no/out.g2o"), 1, {"no/out.g2o"});
-	for (const char* flag :
-		 {"--solver magic", "--init magic", "--robust magic", "--threads 0", "--threads many"})
+	for (const char* flag : {"--solver magic", "--init magic", "--robust magic", "--threads many"})
 		expectError(kApp, (folder / "in.g2o") + " " + flag, 2, {kApp + std::string(" --help")});
+	expectError(kApp, (folder / "in.g2o") + " --threads 0", 2, {"--threads 0: is not 1 to 64"});
 	for (const char* name : {"out.g2o", "out.g2o.part", "m.csv", "w.csv"})
 		EXPECT_FALSE(fs::exists(folder / name)) << name;
 }
