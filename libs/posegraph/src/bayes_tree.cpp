@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "front_storage.h"
 #include "simd/front_kernels.h"
 
 namespace posidonia
@@ -167,10 +168,9 @@ std::vector<int> CBayesTree::newCliques(const TEliminationForest& forest, const 
 		}
 		for (const int p : from.separator)
 			clique.separator.push_back(order[forest.order[p]]);
-		const double p = 6.0 * from.pivots, s = 6.0 * from.left();
 		clique.made = m_version;
 		clique.has_rest = true;
-		clique.work = p * p * p / 6 + p * p * s / 2 + p * s * s / 2;
+		clique.work = eliminationWork(from.pivots, from.left());
 		m_whole_work += clique.work;
 	}
 	return slots;

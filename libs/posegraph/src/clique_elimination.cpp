@@ -87,7 +87,7 @@ int CBayesTree::eliminateClique(TClique& clique, const TNormalOf& normal_of)
 	clique.rest.resize(frontSize(m - p, m - p, width));
 	std::fill_n(clique.panel.data(), clique.panel.size(), 0.0);
 	const TFront front = frontOf(clique.panel.data(), clique.rest.data(), m, p, width);
-	sumFactorsIntoPanel(clique);
+	sumFactors(clique, true);
 	for (const int c : clique.children) {
 		const TClique& child = m_cliques[c];
 		if (child.rows_ascend)
@@ -98,7 +98,7 @@ int CBayesTree::eliminateClique(TClique& clique, const TNormalOf& normal_of)
 	const int failed = m_kernels->factorize(front.panel, m, p);
 	if (failed >= 0) return clique.pivots[failed];
 	m_kernels->update(front.panel, m, p, front.rest);
-	sumFactorsIntoRest(clique);
+	sumFactors(clique, false);
 	for (const int c : clique.children) {
 		const TClique& child = m_cliques[c];
 		if (child.rows_ascend)
@@ -121,38 +121,19 @@ void CBayesTree::mapChildRows(TClique& clique)
 	}
 }
 
-void CBayesTree::sumFactorsIntoPanel(TClique& clique)
+/** The blocks of the clique's factors that belong to the panel, or those that belong to the rest. */
+void CBayesTree::sumFactors(TClique& clique, bool panel)
 {
 	const int p = int(clique.pivots.size());
-	const TFront front = frontOf(clique.panel.data(), nullptr, clique.size(), p, m_kernels->width);
+	const TFront front = frontOf(clique.panel.data(), clique.rest.data(), clique.size(), p, m_kernels->width);
 	for (const TFactorNormal& normal : m_normals)
 		for (int a = 0; a < normal.count; a++) {
 			const int row = m_local[normal.node[a]];
-			if (row < p) front.addRight(row, -normal.g[a]);
+			if ((row < p) == panel) front.addRight(row, -normal.g[a]);
 			for (int b = 0; b <= a; b++) {
 				const int column = m_local[normal.node[b]];
 				const Matrix6d& H = normal.H[TFactorNormal::lower(a, b)];
-				if (std::min(row, column) >= p) continue;
-				if (row >= column)
-					front.add(row, column, H);
-				else
-					front.add(column, row, H.transpose());
-			}
-		}
-}
-
-void CBayesTree::sumFactorsIntoRest(TClique& clique)
-{
-	const int p = int(clique.pivots.size());
-	const TFront front = frontOf(nullptr, clique.rest.data(), clique.size(), p, m_kernels->width);
-	for (const TFactorNormal& normal : m_normals)
-		for (int a = 0; a < normal.count; a++) {
-			const int row = m_local[normal.node[a]];
-			if (row >= p) front.addRight(row, -normal.g[a]);
-			for (int b = 0; b <= a; b++) {
-				const int column = m_local[normal.node[b]];
-				const Matrix6d& H = normal.H[TFactorNormal::lower(a, b)];
-				if (std::min(row, column) < p) continue;
+				if ((std::min(row, column) < p) != panel) continue;
 				if (row >= column)
 					front.add(row, column, H);
 				else

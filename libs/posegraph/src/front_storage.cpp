@@ -56,13 +56,18 @@ void appendRowsInParent(
 	rows.push_back(parent.size());
 }
 
+double eliminationWork(int pivots, int separator)
+{
+	const double p = 6.0 * pivots, s = 6.0 * separator;
+	return p * p * p / 6 + p * p * s / 2 + p * s * s / 2;
+}
+
 std::vector<double> subtreeWork(const TEliminationForest& forest)
 {
 	std::vector<double> work(forest.cliques.size(), 0);
 	for (size_t c = 0; c < work.size(); c++) {
 		const auto& clique = forest.cliques[c];
-		const double p = 6 * clique.pivots, s = 6 * double(clique.separator.size());
-		work[c] += p * p * p / 6 + p * p * s / 2 + p * s * s / 2;
+		work[c] += eliminationWork(clique.pivots, clique.left());
 		if (clique.parent >= 0) work[clique.parent] += work[c];
 	}
 	return work;

@@ -34,6 +34,9 @@ void appendRowsInParent(
 	const TEliminationForest::TClique& clique, const TEliminationForest::TClique& parent,
 	std::vector<int>& rows);
 
+/** Multiply-adds to eliminate a clique, its pivots and its separator in blocks. */
+double eliminationWork(int pivots, int separator);
+
 /** Multiply-adds of the clique and all below it, for each clique. */
 std::vector<double> subtreeWork(const TEliminationForest& forest);
 

@@ -94,8 +94,7 @@ class CBayesTree : public CCliqueFactor
 	void adoptOrphan(int orphan);
 	void placeFactor(int factor, const TFactorNodes& nodes);
 	int eliminateClique(TClique& clique, const TNormalOf& normal_of);
-	void sumFactorsIntoPanel(TClique& clique);
-	void sumFactorsIntoRest(TClique& clique);
+	void sumFactors(TClique& clique, bool panel);
 	void mapChildRows(TClique& clique);
 	void solveClique(const TClique& clique, std::vector<Vector6d>& d);
 	void backSubstitute(const TClique& clique, const std::vector<Vector6d>& d);
