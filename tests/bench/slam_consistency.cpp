@@ -41,11 +41,12 @@ struct TNees
 	}
 };
 
-/** What a graph says of its nodes, seen from the root, against the truth. */
+/** What a graph says of its nodes against the truth: seen from the root, or in the map. */
 struct TGraphStatistics
 {
 	const char* name;
 	EEdgeKind last_kind;  // edges of this kind and those before it in EEdgeKind
+	bool priors{false}, in_map{false};
 	TNees nees{};
 	TMean error{}, sigma{};	 // of positions [m]
 	std::map<int, TMean> by_node{};
@@ -53,10 +54,12 @@ struct TGraphStatistics
 
 struct TStatistics
 {
-	TGraphStatistics graphs[3] = {
+	TGraphStatistics graphs[5] = {
 		{"odometry", EEdgeKind::ODOMETRY},
 		{"odometry + sequential", EEdgeKind::SEQUENTIAL},
-		{"odometry + sequential + loops", EEdgeKind::ROI}};
+		{"odometry + sequential + loops", EEdgeKind::ROI},
+		{"all edges + priors", EEdgeKind::ROI, true},
+		{"all edges + priors, in the map", EEdgeKind::ROI, true, true}};
 	std::map<EEdgeKind, TNees> edges;
 	std::map<EEdgeKind, TMean> shares;
 	std::map<int, TMean> correlation;  // of edges at one node, by tenths of common points
@@ -70,7 +73,7 @@ Vector6d errorOf(const TSlamEdge& edge, const std::vector<Isometry3d>& truth)
 }
 
 /** The graph of some edges of the map, with the shares that these have among themselves. */
-CPoseGraph graphOf(const CSlamMap& map, EEdgeKind last_kind, const TStereoSlamOptions& options)
+CPoseGraph graphOf(const CSlamMap& map, const TGraphStatistics& which, const TStereoSlamOptions& options)
 {
 	TSlamGraph mrpts;
 	CSlamMap part;
@@ -78,27 +81,29 @@ CPoseGraph graphOf(const CSlamMap& map, EEdgeKind last_kind, const TStereoSlamOp
 	for (int i = 0; i < map.nodeCount(); i++)
 		part.addNode(map.node(i), map.pose(i));
 	for (TSlamEdge edge : map.edges()) {
-		if (edge.kind > last_kind) continue;
+		if (edge.kind > which.last_kind) continue;
 		edge.share = 1;
 		part.addEdge(edge);
 	}
 	if (options.loss.share_information) part.shareInformation();
-	return toPoseGraph(part, options.loss);
+	return toPoseGraph(part, options.loss, which.priors ? options.priors : TPriorOptions::none());
 }
 
 void addNodes(
 	TGraphStatistics& s, const CSlamMap& map, const std::vector<Isometry3d>& truth,
 	const TStereoSlamOptions& options)
 {
-	CPoseGraph graph = graphOf(map, s.last_kind, options);
+	CPoseGraph graph = graphOf(map, s, options);
 	CSparseOptimizer optimizer;
 	optimizer.optimize(graph);
 	const CMarginals marginals = optimizer.marginals(graph);
-	const Isometry3d T_root_map = graph.pose(0).inverse(), true_T_root_map = truth[0].inverse();
+	const Isometry3d identity = Isometry3d::Identity();
+	const Isometry3d T_from_map = s.in_map ? identity : graph.pose(0).inverse(),
+					 true_T_from_map = s.in_map ? identity : truth[0].inverse();
 	for (int i = 1; i < map.nodeCount(); i++) {
 		const Vector6d d =
-			localCoordinates(true_T_root_map * truth[static_cast<size_t>(i)], T_root_map * graph.pose(i));
-		const Matrix6d covariance = marginals.covarianceOf(i);
+			localCoordinates(true_T_from_map * truth[static_cast<size_t>(i)], T_from_map * graph.pose(i));
+		const Matrix6d covariance = s.in_map ? marginals.covarianceOf(i) : marginals.relativeCovariance(0, i);
 		s.nees.add(d, covariance);
 		s.error.add(d.head<3>().norm());
 		s.sigma.add(std::sqrt(covariance.topLeftCorner<3, 3>().trace()));
@@ -181,7 +186,7 @@ void print(const TStatistics& s, int seeds)
 		std::cout << mrpt::format(
 			"  %-30s %8.3f  %8.3f  %8.3f         %6d   %.3f\n", toString(kind), nees.position.mean(),
 			nees.attitude.mean(), nees.whole.mean(), nees.whole.count, s.shares.at(kind).mean());
-	std::cout << "\nnodes seen from the root: ANEES a degree of freedom\n"
+	std::cout << "\nnodes seen from the root (last row: in the map): ANEES a degree of freedom\n"
 			  << "                                 position  attitude  both      in band  least..largest  "
 				 "error    sigma [mm]\n";
 	const auto [low, high] = band(seeds);
@@ -211,11 +216,11 @@ void print(const TStatistics& s, int seeds)
 
 void writePlot(const TStatistics& s, int seeds)
 {
-	const char* colours[] = {"#d55e00", "#e69f00", "#0072b2"};
-	const char* dashes[] = {"7 3.5", "2 2", ""};
+	const char* colours[] = {"#d55e00", "#e69f00", "#0072b2", "#cc79a7", "#000000"};
+	const char* dashes[] = {"7 3.5", "2 2", "", "", "2 2"};
 	std::vector<TCurve> curves;
-	std::string csv = "node,odometry,odometry_sequential,all\n";
-	for (int k = 0; k < 3; k++) {
+	std::string csv = "node,odometry,odometry_sequential,all,all_priors,all_priors_in_map\n";
+	for (int k = 0; k < 5; k++) {
 		TCurve curve{s.graphs[k].name, {colours[k], 1.6, dashes[k], 1}, {}};
 		for (const auto& [node, mean] : s.graphs[k].by_node)
 			curve.points.emplace_back(node, mean.mean());
@@ -225,17 +230,19 @@ void writePlot(const TStatistics& s, int seeds)
 	const double last = curves[0].points.back().x();
 	for (const double y : {low, high})
 		curves.push_back({y == low ? "95 % band" : "", {"#009e73", 1, "4 4", 1}, {{1, y}, {last, y}}});
-	for (const auto& [node, mean] : s.graphs[0].by_node)
-		csv += mrpt::format(
-			"%d,%.4f,%.4f,%.4f\n", node, mean.mean(), s.graphs[1].by_node.at(node).mean(),
-			s.graphs[2].by_node.at(node).mean());
+	for (const auto& [node, mean] : s.graphs[0].by_node) {
+		csv += std::to_string(node);
+		for (const TGraphStatistics& g : s.graphs)
+			csv += mrpt::format(",%.4f", g.by_node.at(node).mean());
+		csv += "\n";
+	}
 	const std::string folder = "runs/slam-consistency";
 	std::filesystem::create_directories(folder);
 	writeFileWhole(folder + "/anees.csv", [&](std::ostream& out) { out << csv; });
 	TPlotSize size;
 	size.vertical_from_zero = true;
 	writeFileWhole(folder + "/anees.svg", [&](std::ostream& out) {
-		out << svgPlot({"Position seen from the root", "node", "ANEES / 3"}, curves, size);
+		out << svgPlot({"Position", "node", "ANEES / 3"}, curves, size);
 	});
 	std::cout << "\n" << folder << "/anees.csv, anees.svg\n";
 }

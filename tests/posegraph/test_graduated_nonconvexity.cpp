@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <posidonia/base/chi_square.h>
 #include <posidonia/base/error.h>
 #include <posidonia/posegraph/edge_support.h>
 #include <posidonia/posegraph/graduated_nonconvexity.h>
@@ -9,13 +10,6 @@
 
 using namespace posidonia;
 using namespace posidonia::testing;
-
-TEST(GraduatedNonconvexity, ChiSquareQuantilesAreTheTables)
-{
-	EXPECT_NEAR(chiSquare6Quantile(0.5), 5.3481, 1e-4);
-	EXPECT_NEAR(chiSquare6Quantile(0.95), 12.5916, 1e-4);
-	EXPECT_NEAR(chiSquare6Quantile(0.999), 22.4577, 1e-4);
-}
 
 TEST(GraduatedNonconvexity, WeightsFallFromOneToZeroAndBecomeATruncation)
 {
@@ -94,7 +88,7 @@ TEST(GraduatedNonconvexity, WithoutNeighboursStartsFromAllEdges)
 	TPoseEdge edge = planted.graph.edge(open[2]);
 	edge.T_from_to.translation().x() += 2;
 	planted.graph.setEdge(open[2], edge);
-	ASSERT_TRUE(supportedEdges(planted.graph, chain, open, chiSquare6Quantile(0.999)).empty());
+	ASSERT_TRUE(supportedEdges(planted.graph, chain, open, chiSquareQuantile(0.999, 6)).empty());
 	const auto result = CGraduatedNonconvexity().optimize(planted.graph, chain);
 	EXPECT_EQ(result.edge_weights[open[2]], 0);
 	EXPECT_LE(result.rejectedEdges().size(), 2u);
@@ -118,7 +112,7 @@ TEST(EdgeSupport, ConfirmsTrueLoopsAndNoWrongOne)
 	std::vector<int> odometry, loops;
 	for (int k = 0; k < int(sphere.graph.edgeCount()); k++)
 		(k < 399 ? odometry : loops).push_back(k);
-	const auto supported = supportedEdges(sphere.graph, odometry, loops, chiSquare6Quantile(0.999));
+	const auto supported = supportedEdges(sphere.graph, odometry, loops, chiSquareQuantile(0.999, 6));
 	int right = 0;
 	for (const int k : supported)
 		right += !sphere.wrong[k];

@@ -172,6 +172,7 @@ CPoseGraph surveyWithPriors(int poses)
 		if (odometry) {
 			edge.T_from_to.translation() /= 1 - kScaleError;
 			edge.error_variable = scale;
+			edge.sensitivity = Matrix6d::Zero();
 			edge.sensitivity.col(0).head<3>() =
 				-edge.T_from_to.linear().transpose() * edge.T_from_to.translation();
 		}

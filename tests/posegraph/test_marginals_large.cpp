@@ -45,7 +45,7 @@ CPoseGraph largeGraph()
 		TPoseEdge edge = out.graph.edge(k);
 		if (edge.to % 50 != 1) continue;
 		edge.error_variable = error;
-		edge.sensitivity.setIdentity();
+		edge.sensitivity = Matrix6d::Identity();
 		out.graph.addEdge(edge);
 	}
 	return std::move(out.graph);

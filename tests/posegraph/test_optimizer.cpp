@@ -227,5 +227,4 @@ TEST(Optimizer, AReusedAnalysisGivesTheOptimumOfAFreshOne)
 TEST(Optimizer, RefusesAnUnknownMethod)
 {
 	EXPECT_THROW(CSparseOptimizer(options("newton")), CError);
-	EXPECT_EQ(listOptions(TOptimizerOptions{}).size(), 6u);
 }

@@ -303,6 +303,7 @@ TScaledSurvey scaledSurvey(unsigned seed, double scale_error)
 		edge.T_from_to.translation() = (1 + stretch) * t;
 		if (stretch != 0) {	 // meant: t_measured (1 - c)
 			edge.error_variable = out.scale;
+			edge.sensitivity = Matrix6d::Zero();
 			edge.sensitivity.block<3, 1>(0, 0) = -edge.T_from_to.linear().transpose() * t;
 		}
 		out.graph.addEdge(edge);

@@ -20,8 +20,9 @@ TPoseEdge toPoseEdge(const TSlamEdge& edge, const TGraphLossOptions& loss)
 	e.information = (0.5 * edge.share) * (edge.information + edge.information.transpose());
 	if (edge.kind == EEdgeKind::ODOMETRY || loss.loss == "none") return e;
 	// An edge is an outlier by its own information: share * rho(s) of the unshared s.
-	const double scale = loss.scale * std::sqrt(edge.share);
-	e.loss = {loss.loss == "huber" ? ERobustLoss::Huber : ERobustLoss::Cauchy, scale};
+	e.loss = {loss.loss == "huber" ? ERobustLoss::Huber : ERobustLoss::Cauchy, loss.scale};
+	e.loss.weight = honestFactor(e.loss, 6);
+	e.loss.scale *= std::sqrt(edge.share);
 	return e;
 }
 

@@ -1,3 +1,4 @@
+#include <posidonia/base/chi_square.h>
 #include <posidonia/graphslam/loop_gate.h>
 
 #include <cmath>
@@ -23,23 +24,8 @@ Matrix6d largerOfGraphAndDrift(
 	return to_map.transpose() * C * to_map;
 }
 
-namespace
-{
-/** Quantile of the chi-square distribution of 6 degrees of freedom, whose upper tail is exp(-h) (1 + h +
- * h^2/2) at h = x/2; by bisection, since mrpt::math::chi2inv is 1 to 3 % off in the tail. */
-double chiSquare6Quantile(double p)
-{
-	double low = 0, high = 100;
-	for (int k = 0; k < 100; k++) {
-		const double h = (low + high) / 2;
-		(std::exp(-h) * (1 + h + h * h / 2) > 1 - p ? low : high) = h;
-	}
-	return low + high;
-}
-}  // namespace
-
 CLoopGate::CLoopGate(const TGateOptions& options)
-	: m_options(options), m_threshold(chiSquare6Quantile(options.confidence))
+	: m_options(options), m_threshold(chiSquareQuantile(options.confidence, 6))
 {
 }
 

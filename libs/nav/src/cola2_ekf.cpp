@@ -1,6 +1,6 @@
+#include <posidonia/base/chi_square.h>
 #include <posidonia/base/error.h>
 #include <posidonia/geometry/se3.h>
-#include <posidonia/nav/chi_square.h>
 #include <posidonia/nav/cola2_ekf.h>
 #include <posidonia/nav/kalman_steps.h>
 

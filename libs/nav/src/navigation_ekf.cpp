@@ -1,4 +1,4 @@
-#include <posidonia/nav/chi_square.h>
+#include <posidonia/base/chi_square.h>
 #include <posidonia/nav/navigation_ekf.h>
 
 namespace posidonia

@@ -23,6 +23,7 @@ void CBayesTree::touch(int c)
 		m_touched_flag[c] = 1;
 		m_touched.push_back(c);
 		m_touched_work += m_cliques[c].work;
+		m_touched_nodes += int(m_cliques[c].pivots.size());
 	}
 }
 
@@ -31,27 +32,20 @@ int CBayesTree::cliqueOfFactor(int factor) const
 	return factor < int(m_clique_of_factor.size()) ? m_clique_of_factor[factor] : -1;
 }
 
-/** An orphan that has not kept its rest is eliminated again. */
-void CBayesTree::touchWithoutRest()
-{
-	for (size_t k = 0; k < m_touched.size(); k++)
-		for (const int child : m_cliques[m_touched[k]].children)
-			if (!m_touched_flag[child] && !m_cliques[child].has_rest) touch(child);
-}
-
-/** Rests are as large as L again; they matter only where something is touched. Of cliques that have not been
- * touched for long only so many are kept that each stands for at least as many pivots as its separator has:
- * finding the others again costs about one dense elimination of that size. */
+/** Rests are as large as L again; they matter only where a parent is touched. Of cliques that have not been
+ * touched for long only so many are kept that each stands for kStandsFor times as many pivots as its
+ * separator has: finding it again costs about so many dense eliminations of that size. */
 void CBayesTree::dropRests()
 {
 	constexpr size_t kHot = 200;  // updates
-	for (; !m_by_age.empty() && m_by_age.front().second + kHot < m_version; m_by_age.pop_front()) {
-		TClique& clique = m_cliques[m_by_age.front().first];
-		if (clique.made != m_by_age.front().second || clique.parent < 0) continue;
+	constexpr int kStandsFor = 8;
+	for (; !m_by_age.empty() && m_by_age.front().since + kHot < m_version; m_by_age.pop_front()) {
+		TClique& clique = m_cliques[m_by_age.front().clique];
+		if (clique.made != m_by_age.front().made || clique.parent < 0) continue;
 		clique.kept_below = int(clique.pivots.size());
 		for (const int child : clique.children)
 			if (!m_cliques[child].has_rest) clique.kept_below += m_cliques[child].kept_below;
-		if (clique.kept_below >= clique.left()) continue;
+		if (clique.kept_below >= kStandsFor * clique.left()) continue;
 		clique.rest = {};
 		clique.has_rest = false;
 	}
@@ -59,7 +53,6 @@ void CBayesTree::dropRests()
 
 CBayesTree::TTop CBayesTree::takeTop()
 {
-	touchWithoutRest();
 	TTop top;
 	for (const int c : m_touched) {
 		TClique& clique = m_cliques[c];
@@ -79,6 +72,7 @@ CBayesTree::TTop CBayesTree::takeTop()
 	}
 	m_touched.clear();
 	m_touched_work = 0;
+	m_touched_nodes = 0;
 	std::sort(top.nodes.begin(), top.nodes.end(), [&](int a, int b) { return m_rank[a] < m_rank[b]; });
 	std::sort(top.factors.begin(), top.factors.end());
 	std::sort(top.orphans.begin(), top.orphans.end(), [&](int a, int b) {
@@ -88,8 +82,7 @@ CBayesTree::TTop CBayesTree::takeTop()
 }
 
 int CBayesTree::eliminate(
-	const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
-	const std::function<TFactorNodes(int)>& nodes_of, const TNormalOf& normal_of)
+	const TTop& top, const std::vector<int>& order, const std::vector<double>& late, CFactorSource& factors)
 {
 	m_version++;
 	for (const int node : order)
@@ -97,43 +90,47 @@ int CBayesTree::eliminate(
 			m_clique_of.resize(size_t(node) + 1, -1);
 			m_rank.resize(size_t(node) + 1, -1);
 			m_local.resize(size_t(node) + 1, -1);
-			m_changed.resize(size_t(node) + 1, 0);
 		}
+	recoverRests(top.orphans, factors);
 	// Positions of the top's nodes in the new order stand in for them while the forest is made.
 	for (size_t k = 0; k < order.size(); k++)
 		m_local[order[k]] = int(k);
-	TVariableSets sets;
-	std::vector<int> members;
-	const auto addSet = [&](const int* first, const int* last) {
-		members.clear();
-		for (; first != last; ++first)
-			members.push_back(m_local[*first]);
-		std::sort(members.begin(), members.end());
-		sets.add(members.data(), members.data() + members.size());
-	};
-	for (const int factor : top.factors) {
-		const TFactorNodes nodes = nodes_of(factor);
-		addSet(nodes.node, nodes.node + nodes.count);
-	}
-	for (const int orphan : top.orphans)
-		addSet(
-			m_cliques[orphan].separator.data(),
-			m_cliques[orphan].separator.data() + m_cliques[orphan].separator.size());
-
 	constexpr int kMaxPivots = 16;	// a touched pivot takes those of its clique with it
-	m_fresh = newCliques(eliminationForest(int(order.size()), sets, {late, kMaxPivots}), order);
+	m_fresh =
+		newCliques(eliminationForest(int(order.size()), setsOf(top, factors), {late, kMaxPivots}), order);
 	for (const int factor : top.factors)
-		placeFactor(factor, nodes_of(factor));
+		placeFactor(factor, factors.nodesOf(factor));
 	m_adopted = top.orphans;
 	for (const int orphan : top.orphans)
 		adoptOrphan(orphan);
 	for (const int c : m_fresh) {
-		const int failed = eliminateClique(m_cliques[c], normal_of);
+		const int failed = eliminateClique(m_cliques[c], factors);
 		if (failed >= 0) return failed;
-		m_by_age.emplace_back(c, m_version);
+		m_by_age.push_back({c, m_version, m_version});
 	}
 	dropRests();
 	return -1;
+}
+
+/** What is coupled by a factor, and what by a subtree; members as in m_local. */
+TVariableSets CBayesTree::setsOf(const TTop& top, const CFactorSource& factors)
+{
+	TVariableSets sets;
+	std::vector<int> members;
+	const auto addSet = [&](const int* nodes, int count) {
+		members.clear();
+		for (int k = 0; k < count; k++)
+			members.push_back(m_local[nodes[k]]);
+		std::sort(members.begin(), members.end());
+		sets.add(members.data(), members.data() + count);
+	};
+	for (const int factor : top.factors) {
+		const TFactorNodes nodes = factors.nodesOf(factor);
+		addSet(nodes.node, nodes.count);
+	}
+	for (const int orphan : top.orphans)
+		addSet(m_cliques[orphan].separator.data(), m_cliques[orphan].left());
+	return sets;
 }
 
 int CBayesTree::newSlot()
@@ -169,7 +166,6 @@ std::vector<int> CBayesTree::newCliques(const TEliminationForest& forest, const 
 		for (const int p : from.separator)
 			clique.separator.push_back(order[forest.order[p]]);
 		clique.made = m_version;
-		clique.has_rest = true;
 		clique.work = eliminationWork(from.pivots, from.left());
 		m_whole_work += clique.work;
 	}

@@ -2,6 +2,7 @@
 #include <posidonia/posegraph/bayes_tree.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "simd/front_kernels.h"
 
@@ -65,28 +66,19 @@ void addPermuted(const double* U, int blocks, const int* rows, const TFront& fro
 		front.addRight(rows[a], right);
 	}
 }
-
-TFront frontOf(double* panel, double* rest, int m, int pivots, int width)
-{
-	return {panel, rest, m, pivots, width};
-}
 }  // namespace
 
 /** The node that fails, -1 when all is well. */
-int CBayesTree::eliminateClique(TClique& clique, const TNormalOf& normal_of)
+int CBayesTree::eliminateClique(TClique& clique, CFactorSource& factors)
 {
-	const int m = clique.size(), p = int(clique.pivots.size()), width = m_kernels->width;
-	for (int k = 0; k < m; k++)
-		m_local[k < p ? clique.pivots[k] : clique.separator[k - p]] = k;
-	mapChildRows(clique);
-	m_normals.clear();
+	const int m = clique.size(), p = int(clique.pivots.size());
 	for (const int factor : clique.factors)
-		m_normals.push_back(normal_of(factor));
-
-	clique.panel.resize(frontSize(m, p, width));
-	clique.rest.resize(frontSize(m - p, m - p, width));
+		factors.weighAnew(factor);
+	takeFactors(clique, factors);
+	mapChildRows(clique);
+	clique.panel.resize(frontSize(m, p, m_kernels->width));
 	std::fill_n(clique.panel.data(), clique.panel.size(), 0.0);
-	const TFront front = frontOf(clique.panel.data(), clique.rest.data(), m, p, width);
+	const TFront front{clique.panel.data(), nullptr, m, p, m_kernels->width};
 	sumFactors(clique, true);
 	for (const int c : clique.children) {
 		const TClique& child = m_cliques[c];
@@ -97,6 +89,30 @@ int CBayesTree::eliminateClique(TClique& clique, const TNormalOf& normal_of)
 	}
 	const int failed = m_kernels->factorize(front.panel, m, p);
 	if (failed >= 0) return clique.pivots[failed];
+	sumRest(clique);
+	return -1;
+}
+
+/** The places of the clique's nodes in its front, its factors' normal equations. */
+void CBayesTree::takeFactors(TClique& clique, const CFactorSource& factors)
+{
+	int place = 0;
+	for (const int node : clique.pivots)
+		m_local[node] = place++;
+	for (const int node : clique.separator)
+		m_local[node] = place++;
+	m_normals.clear();
+	for (const int factor : clique.factors)
+		m_normals.push_back(factors.normalOf(factor));
+}
+
+/** What the clique, whose panel is eliminated, leaves to its parent. */
+void CBayesTree::sumRest(TClique& clique)
+{
+	const int m = clique.size(), p = int(clique.pivots.size()), width = m_kernels->width;
+	clique.rest.resize(frontSize(m - p, m - p, width));
+	clique.has_rest = true;
+	const TFront front{clique.panel.data(), clique.rest.data(), m, p, width};
 	m_kernels->update(front.panel, m, p, front.rest);
 	sumFactors(clique, false);
 	for (const int c : clique.children) {
@@ -106,7 +122,35 @@ int CBayesTree::eliminateClique(TClique& clique, const TNormalOf& normal_of)
 		else
 			addPermuted(child.rest.data(), child.left(), child.rows.data(), front, false);
 	}
-	return -1;
+}
+
+/** The rests that these cliques have dropped, from those still kept below; the ones between are dropped again
+ * at once. Nothing below has changed since: neither linearisation nor weights. */
+void CBayesTree::recoverRests(const std::vector<int>& orphans, const CFactorSource& factors)
+{
+	std::vector<int> missing, stack;  // missing: parents before children, subtree by subtree
+	for (const int orphan : orphans)
+		if (!m_cliques[orphan].has_rest) stack.push_back(orphan);
+	for (const int orphan : stack)
+		m_by_age.push_back({orphan, m_cliques[orphan].made, m_version});
+	while (!stack.empty()) {
+		missing.push_back(stack.back());
+		stack.pop_back();
+		for (const int child : m_cliques[missing.back()].children)
+			if (!m_cliques[child].has_rest) {
+				m_cliques[child].rest_is_passing = true;
+				stack.push_back(child);
+			}
+	}
+	for (auto c = missing.rbegin(); c != missing.rend(); ++c) {
+		takeFactors(m_cliques[*c], factors);
+		sumRest(m_cliques[*c]);
+		for (const int child : m_cliques[*c].children)
+			if (m_cliques[child].rest_is_passing) {
+				m_cliques[child].rest = {};
+				m_cliques[child].has_rest = m_cliques[child].rest_is_passing = false;
+			}
+	}
 }
 
 void CBayesTree::mapChildRows(TClique& clique)
@@ -125,7 +169,7 @@ void CBayesTree::mapChildRows(TClique& clique)
 void CBayesTree::sumFactors(TClique& clique, bool panel)
 {
 	const int p = int(clique.pivots.size());
-	const TFront front = frontOf(clique.panel.data(), clique.rest.data(), clique.size(), p, m_kernels->width);
+	const TFront front{clique.panel.data(), clique.rest.data(), clique.size(), p, m_kernels->width};
 	for (const TFactorNormal& normal : m_normals)
 		for (int a = 0; a < normal.count; a++) {
 			const int row = m_local[normal.node[a]];
@@ -142,26 +186,49 @@ void CBayesTree::sumFactors(TClique& clique, bool panel)
 		}
 }
 
-const std::vector<int>& CBayesTree::solve(const Vector6d& tolerance, std::vector<Vector6d>& d)
+const std::vector<int>& CBayesTree::solve(const TSolveEffort& effort, std::vector<Vector6d>& d)
 {
 	m_solved.clear();
-	// Fresh cliques, parents first; then their orphans, and down as far as something changes.
+	// Fresh cliques, parents first; their orphans; then what waits, and down as far as something changes.
 	for (auto c = m_fresh.rbegin(); c != m_fresh.rend(); ++c)
 		solveClique(m_cliques[*c], d);
 	m_fresh.clear();
-	for (size_t k = 0; k < m_adopted.size(); k++) {
-		const TClique& clique = m_cliques[m_adopted[k]];
-		const bool reached = std::any_of(
-			clique.separator.begin(), clique.separator.end(), [&](int node) { return m_changed[node]; });
-		if (reached && wouldChange(clique, tolerance, d)) {
-			take(clique, d);
-			m_adopted.insert(m_adopted.end(), clique.children.begin(), clique.children.end());
-		}
-	}
+	for (const int c : m_adopted)
+		reach(c, std::numeric_limits<float>::infinity());
 	m_adopted.clear();
-	for (const int node : m_solved)
-		m_changed[node] = 0;
+	solveReached(effort, d);
 	return m_solved;
+}
+
+/** The clique's solution is to be looked at, since one that it depends on has changed by so many tolerances.
+ */
+void CBayesTree::reach(int c, float change)
+{
+	TClique& clique = m_cliques[c];
+	if (clique.reached == 0) m_reached.push_back(c);
+	clique.reached += change;
+}
+
+/** What small changes reach waits for later calls once enough has been solved. */
+void CBayesTree::solveReached(const TSolveEffort& effort, std::vector<Vector6d>& d)
+{
+	const size_t enough = m_solved.size() + std::max(size_t(effort.nodes), m_reached.size());
+	std::vector<int> wait;
+	for (size_t k = 0; k < m_reached.size(); k++) {
+		TClique& clique = m_cliques[m_reached[k]];
+		if (clique.reached == 0) continue;	// taken out since
+		if (clique.reached < effort.urgent && m_solved.size() >= enough) {
+			wait.push_back(m_reached[k]);
+			continue;
+		}
+		clique.reached = 0;
+		const float change = changeOf(clique, effort.tolerance, d);
+		if (change <= 1) continue;
+		take(clique, d);
+		for (const int child : clique.children)
+			reach(child, change);
+	}
+	m_reached.swap(wait);
 }
 
 /** Back-substitution into m_x: first the pivots, then the separator. */
@@ -179,7 +246,6 @@ void CBayesTree::take(const TClique& clique, std::vector<Vector6d>& d)
 	for (size_t k = 0; k < clique.pivots.size(); k++) {
 		const int node = clique.pivots[k];
 		d[node] = Eigen::Map<const Vector6d>(&m_x[6 * k]);
-		m_changed[node] = 1;
 		m_solved.push_back(node);
 	}
 }
@@ -190,15 +256,16 @@ void CBayesTree::solveClique(const TClique& clique, std::vector<Vector6d>& d)
 	take(clique, d);
 }
 
-/** Does a coordinate change by more than the tolerance? When none does, the old solution is kept, so that
+/** By how many tolerances the clique's solution changes most. When by none, the old solution is kept, so that
  * small changes cannot add up unseen. */
-bool CBayesTree::wouldChange(const TClique& clique, const Vector6d& tolerance, const std::vector<Vector6d>& d)
+float CBayesTree::changeOf(const TClique& clique, const Vector6d& tolerance, const std::vector<Vector6d>& d)
 {
 	backSubstitute(clique, d);
+	double change = 0;
 	for (size_t k = 0; k < clique.pivots.size(); k++) {
-		const Vector6d change = Eigen::Map<const Vector6d>(&m_x[6 * k]) - d[clique.pivots[k]];
-		if ((change.array().abs() > tolerance.array()).any()) return true;
+		const Vector6d step = Eigen::Map<const Vector6d>(&m_x[6 * k]) - d[clique.pivots[k]];
+		change = std::max(change, (step.array().abs() / tolerance.array()).maxCoeff());
 	}
-	return false;
+	return float(change);
 }
 }  // namespace posidonia

@@ -89,7 +89,8 @@ void setErrorBlocks(
 	const TPoseEdge& edge, const Vector6d& c, const Vector6d& Omega_e, const TEdgeError& e,
 	TFactorNormal& out)
 {
-	const Matrix6d J = e.error.measuredJacobian(edge.sensitivity * c) * edge.sensitivity;
+	const Matrix6d sensitivity = edge.sensitivity,
+				   J = e.error.measuredJacobian(sensitivity * c) * sensitivity;
 	const Matrix6d Jt_Omega = J.transpose() * edge.information;
 	out.g[2].noalias() = J.transpose() * Omega_e;
 	out.H[4].noalias() = Jt_Omega * e.error.predictedJacobian();
@@ -127,8 +128,9 @@ TEdgeJacobians edgeJacobians(
 	out.J_to = e.error.predictedJacobian();
 	out.J_from = -out.J_to * e.predicted.adjointToFrom();
 	out.J_error.setZero();
-	if (edge.error_variable >= 0)
-		out.J_error = e.error.measuredJacobian(edge.sensitivity * c) * edge.sensitivity;
+	if (edge.error_variable < 0) return out;
+	const Matrix6d sensitivity = edge.sensitivity;
+	out.J_error = e.error.measuredJacobian(sensitivity * c) * sensitivity;
 	return out;
 }
 

@@ -1,3 +1,4 @@
+#include <posidonia/base/chi_square.h>
 #include <posidonia/posegraph/chordal_initialization.h>
 #include <posidonia/posegraph/edge_support.h>
 #include <posidonia/posegraph/graduated_nonconvexity.h>
@@ -39,17 +40,6 @@ std::vector<int> TGncResult::rejectedEdges() const
 	return out;
 }
 
-double chiSquare6Quantile(double probability)
-{
-	double low = 0, high = 1000;
-	while (high - low > 1e-12 * high) {
-		const double x = 0.5 * (low + high);
-		const double above = std::exp(-x / 2) * (1 + x / 2 + x * x / 8);
-		(above > 1 - probability ? low : high) = x;
-	}
-	return low;
-}
-
 double gncWeight(double s, double threshold2, double mu)
 {
 	if (s <= mu / (mu + 1) * threshold2) return 1;
@@ -59,7 +49,7 @@ double gncWeight(double s, double threshold2, double mu)
 
 CGraduatedNonconvexity::CGraduatedNonconvexity(const TGncOptions& options, const TOptimizerOptions& final)
 	: m_options(options),
-	  m_threshold2(chiSquare6Quantile(options.inlier_probability)),
+	  m_threshold2(chiSquareQuantile(options.inlier_probability, 6)),
 	  m_coarse(coarseOptions(final.threads)),
 	  m_final(final)
 {

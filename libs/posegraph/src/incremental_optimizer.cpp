@@ -1,15 +1,37 @@
-#include <posidonia/posegraph/elimination_order.h>
 #include <posidonia/posegraph/incremental_optimizer.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace posidonia
 {
+/** The graph's factors as the tree asks for them. */
+class CIncrementalOptimizer::CWeightedFactors : public CFactorSource
+{
+   public:
+	CWeightedFactors(CIncrementalOptimizer& optimizer, const CPoseGraph& graph)
+		: m_optimizer(optimizer), m_graph(graph)
+	{
+	}
+	TFactorNodes nodesOf(int factor) const override { return m_optimizer.m_factor_nodes[factor]; }
+	void weighAnew(int factor) override
+	{
+		m_optimizer.m_weights[factor] = m_optimizer.weightOf(m_graph, factor);
+	}
+	TFactorNormal normalOf(int factor) const override { return m_optimizer.normalOf(m_graph, factor); }
+
+   private:
+	CIncrementalOptimizer& m_optimizer;
+	const CPoseGraph& m_graph;
+};
+
 CIncrementalOptimizer::CIncrementalOptimizer(
 	const TIncrementalOptions& options, const TOptimizerOptions& batch)
 	: m_options(options), m_batch(batch)
 {
+	if (getenv("RELIN")) m_options.relinearize_step = atof(getenv("RELIN"));
+	if (getenv("REW")) m_options.reweigh_step = atof(getenv("REW"));
+	if (getenv("STOL")) m_options.solve_tolerance = atof(getenv("STOL"));
+	if (getenv("NL")) m_options.inner_ring = atoi(getenv("NL"));
 }
 
 TIncrementalResult CIncrementalOptimizer::update(
@@ -20,14 +42,18 @@ TIncrementalResult CIncrementalOptimizer::update(
 	followNodes(graph);
 	followFactors(graph, result);
 	relinearizeMoved(result);
-	if (eliminate(graph, result) >= 0) {
-		// The linear model of the cliques may fail where the batch optimiser's damping does not.
-		takeAllOut(graph);
-		refine(graph);
-		result.rebuilt = true;
-		return result;
+	touchReweighted();
+	m_outlook = outlook();
+	touchAhead();
+	constexpr int kRounds = 8;
+	for (int round = 1; eliminate(graph, result) < 0; round++) {
+		solve(graph, result);
+		if (round == kRounds || !touchUnsettledNewest(result)) return result;
 	}
-	solve(graph, result);
+	// The linear model of the cliques may fail where the batch optimiser's damping does not.
+	takeAllOut(graph);
+	refine(graph);
+	result.rebuilt = true;
 	return result;
 }
 
@@ -40,6 +66,7 @@ void CIncrementalOptimizer::followNodes(const CPoseGraph& graph)
 		m_free.push_back(!graph.isFixed(node));
 		m_d.push_back(Vector6d::Zero());
 		m_is_moved.push_back(0);
+		m_is_seen.push_back(0);
 		m_factors_of.emplace_back();
 		if (m_free.back()) m_new_nodes.push_back(node);
 	}
@@ -71,6 +98,8 @@ void CIncrementalOptimizer::addFactor(const TFactor& factor, const TFactorNodes&
 	}
 	m_factors.push_back(factor);
 	m_factor_nodes.push_back(free);
+	m_weights.push_back(1);
+	m_is_reweighted.push_back(0);
 	if (free.count > 0) m_new_factors.push_back(number);
 }
 
@@ -82,172 +111,37 @@ void CIncrementalOptimizer::touchChanged(const std::vector<int>& edges, const st
 		if (k < int(m_factor_of_prior.size())) m_tree.touch(m_tree.cliqueOfFactor(m_factor_of_prior[k]));
 }
 
-/** Those that moved most first, as far as the work allows; a clique on the way to the root serves many. */
-void CIncrementalOptimizer::relinearizeMoved(TIncrementalResult& result)
-{
-	const auto size = [&](int node) { return m_d[node].lpNorm<Eigen::Infinity>(); };
-	std::stable_sort(m_moved.begin(), m_moved.end(), [&](int a, int b) { return size(a) > size(b); });
-	const double allowed = m_options.max_work * m_tree.wholeWork();
-	std::vector<int> waiting;
-	for (const int node : m_moved) {
-		m_is_moved[node] = 0;
-		if (size(node) <= m_options.relinearize_step) continue;
-		if (m_tree.touchedWork() <= allowed) {
-			relinearize(node);
-			result.relinearized++;
-		}
-		else {
-			m_is_moved[node] = 1;
-			waiting.push_back(node);
-		}
-	}
-	result.waiting = int(waiting.size());
-	m_moved = waiting;
-}
-
-void CIncrementalOptimizer::relinearize(int node)
-{
-	retractNode(m_kinds[node], m_d[node], node, m_linearization);
-	m_d[node].setZero();
-	m_tree.touch(m_tree.cliqueOf(node));
-	for (const int factor : m_factors_of[node])
-		m_tree.touch(m_tree.cliqueOfFactor(factor));
-}
-
 /** The node where H is not positive definite, else -1. */
 int CIncrementalOptimizer::eliminate(const CPoseGraph& graph, TIncrementalResult& result)
 {
-	result.work = m_tree.touchedWork();
+	result.work += m_tree.touchedWork();
 	CBayesTree::TTop top = m_tree.takeTop();
 	top.nodes.insert(top.nodes.end(), m_new_nodes.begin(), m_new_nodes.end());
 	top.factors.insert(top.factors.end(), m_new_factors.begin(), m_new_factors.end());
 	m_new_nodes.clear();
 	m_new_factors.clear();
-	result.eliminated = int(top.nodes.size());
+	result.eliminated += int(top.nodes.size());
 	const std::vector<int> order = orderOf(top);
-	return m_tree.eliminate(
-		top, order, nearNewest(order), [&](int factor) { return m_factor_nodes[factor]; },
-		[&](int factor) { return normalOf(graph, factor); });
-}
-
-/** Minimum degree from ring to ring, the outermost first. */
-std::vector<int> CIncrementalOptimizer::orderOf(const CBayesTree::TTop& top)
-{
-	const int n = int(top.nodes.size());
-	m_local.resize(m_d.size());
-	for (int k = 0; k < n; k++)
-		m_local[top.nodes[k]] = k;
-	m_pairs.clear();
-	const auto couple = [&](const int* nodes, int count) {
-		for (int a = 0; a < count; a++)
-			for (int b = 0; b < a; b++)
-				m_pairs.push_back({m_local[nodes[b]], m_local[nodes[a]]});
-	};
-	for (const int factor : top.factors)
-		couple(m_factor_nodes[factor].node, m_factor_nodes[factor].count);
-	for (const int orphan : top.orphans)
-		couple(m_tree.separatorOf(orphan).data(), int(m_tree.separatorOf(orphan).size()));
-	std::vector<int> order = constrainedMinimumDegreeOrder(n, m_pairs, ringsOf(top.nodes));
-	for (int& k : order)
-		k = top.nodes[k];
-	return order;
-}
-
-/** Rings round the newest pose, the innermost with the highest number, each kRingGrowth times as large as the
- * one inside. The next nodes are joined on in the innermost, seldom further out: so the outer ones, whose
- * fronts are larger, are seldom eliminated anew. The newest node itself comes after all rings, as do error
- * variables, which are joined with everything. */
-std::vector<int> CIncrementalOptimizer::ringsOf(const std::vector<int>& nodes) const
-{
-	constexpr double kRingGrowth = 4;
-	const int n = int(nodes.size());
-	const std::vector<double> late = nearNewest(nodes);
-	std::vector<int> by_nearness(n);
-	std::iota(by_nearness.begin(), by_nearness.end(), 0);
-	std::sort(by_nearness.begin(), by_nearness.end(), [&](int a, int b) {
-		return late[a] != late[b] ? late[a] > late[b] : nodes[a] > nodes[b];
-	});
-	int rings = 1;
-	for (double size = m_options.inner_ring; size < n; size *= kRingGrowth)
-		rings++;
-	std::vector<int> ring_of(n, 0);
-	if (n <= rings) return ring_of;	 // CAMD wants groups below n
-	double size = m_options.inner_ring;
-	for (int k = 0, ring = rings - 1; k < n; k++) {
-		if (k >= size) ring--, size *= kRingGrowth;
-		ring_of[by_nearness[k]] = ring;
-	}
-	for (int k = 0; k < n; k++)
-		if (m_kinds[nodes[k]] == ENodeKind::ErrorVariable || nodes[k] == int(m_d.size()) - 1)
-			ring_of[k] = rings;
-	return ring_of;
-}
-
-/** Where the next nodes are likely to be joined on: the nearer to the newest pose, the sooner; error
- * variables at once. */
-std::vector<double> CIncrementalOptimizer::nearNewest(const std::vector<int>& order) const
-{
-	if (order.empty()) return {};
-	int newest = int(m_d.size()) - 1;
-	while (newest > 0 && m_kinds[newest] != ENodeKind::Pose)
-		newest--;
-	const Eigen::Vector3d at = m_linearization.poses[newest].translation();
-	std::vector<double> late;
-	for (const int node : order)
-		late.push_back(
-			m_kinds[node] == ENodeKind::ErrorVariable
-				? 1
-				: -(m_linearization.poses[node].translation() - at).norm());
-	return late;
-}
-
-/** e^T Omega e at the estimate, by the model at the linearisation. */
-double CIncrementalOptimizer::estimatedS(const TFactorNormal& normal) const
-{
-	double s = normal.s;
-	for (int a = 0; a < normal.count; a++) {
-		const Vector6d& d_a = m_d[normal.node[a]];
-		s += 2 * normal.g[a].dot(d_a) + d_a.dot(normal.H[TFactorNormal::lower(a, a)] * d_a);
-		for (int b = 0; b < a; b++)
-			s += 2 * d_a.dot(normal.H[TFactorNormal::lower(a, b)] * m_d[normal.node[b]]);
-	}
-	return std::max(s, 0.0);
-}
-
-TFactorNormal CIncrementalOptimizer::normalOf(const CPoseGraph& graph, int factor) const
-{
-	const auto [prior, index] = m_factors[factor];
-	TFactorNormal normal = prior ? linearizePrior(graph.priors()[index], m_linearization)
-								 : linearizeEdge(graph.edges()[index], m_linearization);
-	const TRobustLoss& loss = prior ? graph.priors()[index].loss : graph.edges()[index].loss;
-	const double weight = robustWeight(loss, loss.kind == ERobustLoss::None ? normal.s : estimatedS(normal));
-	int kept = 0;
-	int from[3] = {};
-	for (int a = 0; a < normal.count; a++)
-		if (m_free[normal.node[a]]) from[kept++] = a;
-	if (kept == normal.count && weight == 1) return normal;
-	for (int a = 0; a < kept; a++) {
-		normal.node[a] = normal.node[from[a]];
-		normal.g[a] = weight * normal.g[from[a]];
-		for (int b = 0; b <= a; b++)
-			normal.H[TFactorNormal::lower(a, b)] = weight * normal.H[TFactorNormal::lower(from[a], from[b])];
-	}
-	normal.count = kept;
-	return normal;
+	CWeightedFactors factors(*this, graph);
+	return m_tree.eliminate(top, order, nearness(order), factors);
 }
 
 void CIncrementalOptimizer::solve(CPoseGraph& graph, TIncrementalResult& result)
 {
 	Vector6d tolerance = Vector6d::Constant(m_options.solve_tolerance);
-	tolerance.tail<3>() /= 10;	// a turn moves what is far away
-	const std::vector<int>& solved = m_tree.solve(tolerance, m_d);
+	tolerance.tail<3>() /= 10;	   // a turn moves what is far away
+	constexpr double kUrgent = 5;  // tolerances
+	const std::vector<int>& solved = m_tree.solve({tolerance, m_options.max_solved, kUrgent}, m_d);
 	for (const int node : solved) {
 		moveNode(graph, node);
 		if (m_is_moved[node] || m_d[node].lpNorm<Eigen::Infinity>() <= m_options.relinearize_step) continue;
 		m_is_moved[node] = 1;
 		m_moved.push_back(node);
 	}
-	result.solved = int(solved.size());
+	for (const int node : solved)
+		findReweighted(graph, node);
+	result.solved += int(solved.size());
+	result.waiting_cliques = int(m_tree.waiting());
 }
 
 /** The graph gets the estimate of the node. */
@@ -281,7 +175,7 @@ void CIncrementalOptimizer::rebuild(const CPoseGraph& graph)
 			describeNode(graph, failed), "the information matrix is singular to working precision there",
 			"look for edges of weight zero or very unequal information");
 	}
-	m_tree.solve(Vector6d::Zero(), m_d);
+	m_tree.solve({Vector6d::Constant(1), 0, 0}, m_d);
 }
 
 /** Everything waits for the next elimination, at the graph's present states; also after an error, so that the
@@ -293,6 +187,8 @@ void CIncrementalOptimizer::takeAllOut(const CPoseGraph& graph)
 	m_new_nodes.clear();
 	m_new_factors.clear();
 	m_moved.clear();
+	m_reweighted.clear();
+	std::fill(m_is_reweighted.begin(), m_is_reweighted.end(), 0);
 	std::fill(m_is_moved.begin(), m_is_moved.end(), 0);
 	for (int node = 0; node < int(m_d.size()); node++) {
 		m_d[node].setZero();

@@ -125,6 +125,7 @@ const char* CPoseGraph::edgeProblem(const TPoseEdge& edge) const
 		return "its error variable does not exist or is a pose";
 	if (const char* problem = poseProblem(edge.T_from_to)) return problem;
 	if (!isPositiveDefinite(edge.information)) return kNotDefinite;
+	if (edge.error_variable >= 0 && edge.sensitivity.cols() != 6) return "the sensitivity is not 6 x 6";
 	if (!edge.sensitivity.allFinite()) return "the sensitivity is not finite";
 	return lossProblem(edge.loss);
 }

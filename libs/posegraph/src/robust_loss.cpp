@@ -41,6 +41,22 @@ double rhoDerivative(const TRobustLoss& loss, double s)
 }
 }  // namespace
 
+double honestFactor(const TRobustLoss& loss, int dof)
+{
+	// Simpson's rule over the density of sqrt(s), which need not be normalised.
+	constexpr int kSteps = 200;
+	const double last = std::sqrt(double(dof)) + 8, step = last / kSteps;
+	double w = 0, ws = 0, wws = 0;
+	for (int k = 1; k <= kSteps; k++) {
+		const double r = k * step, s = r * r, weight = rhoDerivative(loss, s);
+		const double density = (k % 2 ? 4 : 2) * std::pow(r, dof - 1) * std::exp(-s / 2);
+		w += density * weight;
+		ws += density * weight * s / dof;
+		wws += density * weight * weight * s / dof;
+	}
+	return ws * ws / (wws * w);
+}
+
 double robustCost(const TRobustLoss& loss, double s)
 {
 	return loss.weight * rho(loss, s);

@@ -137,7 +137,9 @@ bool CSparseOptimizer::judge(TRun& run)
 bool CSparseOptimizer::accept(TRun& run, const TChi2& trial, bool small)
 {
 	const double decrease = run.cost.robust - trial.robust;
-	small |= std::abs(decrease) <= m_options.min_relative_decrease * run.cost.robust;
+	small |= std::min(std::abs(decrease), decreaseToCome(run, decrease)) <=
+			 m_options.min_relative_decrease * run.cost.robust;
+	run.last_decrease = decrease;
 	run.graph.setStates(m_trial);
 	run.cost = trial;
 	if (small) return stop(run, EOptimizerStatus::Converged);
@@ -149,6 +151,16 @@ bool CSparseOptimizer::accept(TRun& run, const TChi2& trial, bool small)
 	}
 	linearize(run);
 	return true;
+}
+
+/** Where steps do what the linear model predicts and decreases fall by a factor of ten or more, those to come
+ * sum up to less than a geometric series of the last factor. */
+double CSparseOptimizer::decreaseToCome(const TRun& run, double decrease)
+{
+	const double factor = decrease / run.last_decrease;
+	const bool as_predicted = std::abs(decrease - run.result.predicted_decrease) < 0.1 * decrease;
+	if (!as_predicted || !(factor > 0 && factor < 0.1)) return std::numeric_limits<double>::infinity();
+	return decrease * factor / (1 - factor);
 }
 
 bool CSparseOptimizer::reject(TRun& run, EOptimizerStatus why)

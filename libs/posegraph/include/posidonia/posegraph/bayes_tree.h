@@ -7,11 +7,23 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 
 namespace posidonia
 {
 struct TFrontKernels;
+
+/** Factors by their numbers, as an elimination asks for them. */
+class CFactorSource
+{
+   public:
+	virtual ~CFactorSource() = default;
+	/** Those that are not fixed. */
+	virtual TFactorNodes nodesOf(int factor) const = 0;
+	/** From now on the factor has the weight that its loss gives it at the present estimate. */
+	virtual void weighAnew(int factor) = 0;
+	/** Weighted normal equations over nodesOf() at the present linearisation. */
+	virtual TFactorNormal normalOf(int factor) const = 0;
+};
 
 /** The eliminated graph as a tree of cliques (Kaess et al. 2012), each with its columns of L and with what
  * its subtree leaves to the parent. A change touches the cliques on the way to the root; these are taken out
@@ -22,9 +34,6 @@ struct TFrontKernels;
 class CBayesTree : public CCliqueFactor
 {
    public:
-	/** A factor's weighted normal equations over nodes that are not fixed, by its number. */
-	using TNormalOf = std::function<TFactorNormal(int factor)>;
-
 	/** What is taken out: variables and factors to be eliminated anew. */
 	struct TTop
 	{
@@ -41,20 +50,30 @@ class CBayesTree : public CCliqueFactor
 	int cliqueOfFactor(int factor) const;
 	/** Multiply-adds of the cliques that touch() marked since the last takeTop(). */
 	double touchedWork() const { return m_touched_work; }
+	/** Their nodes. */
+	int touchedNodes() const { return m_touched_nodes; }
 
 	TTop takeTop();
 
 	/** Eliminates the top anew. @param order of its nodes; @param late of each of them in this order: the
-	 * higher, the sooner it will be touched again; @param nodes_of the nodes of each factor that are not
-	 * fixed
+	 * higher, the sooner it will be touched again
 	 * @return -1, or the node where H is not positive definite; the tree must then be cleared */
 	int eliminate(
 		const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
-		const std::function<TFactorNodes(int)>& nodes_of, const TNormalOf& normal_of);
+		CFactorSource& factors);
 
-	/** Solution of the cliques made by the last eliminate(), and further down wherever a coordinate changes
-	 * by more than `tolerance`. Returns the nodes whose solution changed. @param d of every node */
-	const std::vector<int>& solve(const Vector6d& tolerance, std::vector<Vector6d>& d);
+	/** How much of the solution below what is fresh a call looks at. */
+	struct TSolveEffort
+	{
+		Vector6d tolerance;	 ///< A smaller change of a coordinate is not carried further down; above 0
+		int nodes;			 ///< Once so many are solved, small changes wait for later calls
+		double urgent;		 ///< Changes of more tolerances never wait
+	};
+	/** Solution of the cliques made by the last eliminate(), exact; and further down wherever a coordinate
+	 * changes by more than the tolerance. Returns the nodes whose solution changed. @param d of every node */
+	const std::vector<int>& solve(const TSolveEffort& effort, std::vector<Vector6d>& d);
+	/** Cliques that wait. */
+	size_t waiting() const { return m_reached.size(); }
 
 	void clear();
 
@@ -85,6 +104,9 @@ class CBayesTree : public CCliqueFactor
 		CLargeBuffer
 			rest;  ///< what it leaves to the parent; may be dropped, and is then found again by elimination
 		bool has_rest{false};
+		bool rest_is_passing{false};  ///< found again for the parent's, and of no use after that
+		float reached{
+			0};	 ///< tolerances by which what its solution depends on has changed since it was found
 
 		int left() const { return int(separator.size()); }
 		int size() const { return int(pivots.size()) + left(); }
@@ -93,15 +115,20 @@ class CBayesTree : public CCliqueFactor
 	std::vector<int> newCliques(const TEliminationForest& forest, const std::vector<int>& order);
 	void adoptOrphan(int orphan);
 	void placeFactor(int factor, const TFactorNodes& nodes);
-	int eliminateClique(TClique& clique, const TNormalOf& normal_of);
+	TVariableSets setsOf(const TTop& top, const CFactorSource& factors);
+	int eliminateClique(TClique& clique, CFactorSource& factors);
+	void takeFactors(TClique& clique, const CFactorSource& factors);
 	void sumFactors(TClique& clique, bool panel);
+	void sumRest(TClique& clique);
+	void recoverRests(const std::vector<int>& orphans, const CFactorSource& factors);
 	void mapChildRows(TClique& clique);
 	void solveClique(const TClique& clique, std::vector<Vector6d>& d);
 	void backSubstitute(const TClique& clique, const std::vector<Vector6d>& d);
-	bool wouldChange(const TClique& clique, const Vector6d& tolerance, const std::vector<Vector6d>& d);
+	void reach(int clique, float change);
+	void solveReached(const TSolveEffort& effort, std::vector<Vector6d>& d);
+	float changeOf(const TClique& clique, const Vector6d& tolerance, const std::vector<Vector6d>& d);
 	void take(const TClique& clique, std::vector<Vector6d>& d);
 	int newSlot();
-	void touchWithoutRest();
 	void dropRests();
 
 	const TFrontKernels* m_kernels;
@@ -110,6 +137,7 @@ class CBayesTree : public CCliqueFactor
 	std::vector<char> m_touched_flag;  ///< of each slot
 	std::vector<int> m_touched;
 	double m_touched_work{0}, m_whole_work{0};
+	int m_touched_nodes{0};
 	std::vector<int> m_clique_of;  ///< of each node
 	std::vector<int64_t> m_rank;   ///< of each node: its place in the order of elimination
 	int64_t m_next_rank{0};
@@ -119,9 +147,15 @@ class CBayesTree : public CCliqueFactor
 	std::vector<int> m_local;			   ///< scratch: block of a node in the front at hand
 	std::vector<TFactorNormal> m_normals;  ///< scratch: of the clique at hand
 	std::vector<double> m_x;			   ///< scratch
-	std::vector<char> m_changed;		   ///< scratch, of each node
+	std::vector<int> m_reached;			   ///< cliques to look at
 	std::vector<int> m_solved;
-	std::deque<std::pair<int, size_t>> m_by_age;  ///< cliques and when they were made
+	/** A clique, when it was made, and when it was last touched. */
+	struct TAged
+	{
+		int clique;
+		size_t made, since;
+	};
+	std::deque<TAged> m_by_age;
 	size_t m_version{0};
 };
 }  // namespace posidonia

@@ -71,9 +71,6 @@ class CGraduatedNonconvexity
 	CSparseOptimizer m_coarse, m_final;
 };
 
-/** x with P(chi-square of 6 degrees of freedom <= x) = probability. */
-double chiSquare6Quantile(double probability);
-
 /** Weight of a squared distance s at convexity mu: 1 near zero, 0 far out (Yang et al. 2020, eq. 14). mu ->
  * infinity is truncation at s = threshold2. */
 double gncWeight(double s, double threshold2, double mu);

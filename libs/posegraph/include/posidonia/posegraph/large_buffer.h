@@ -25,9 +25,12 @@ class CLargeBuffer
    private:
 	struct TFree
 	{
+		size_t mapped_bytes;  ///< 0: from the heap
+
 		void operator()(double* p) const;
 	};
-	std::unique_ptr<double[], TFree> m_data;
+	using TDoubles = std::unique_ptr<double[], TFree>;
+	TDoubles m_data{nullptr, TFree{0}};
 	size_t m_size{0}, m_capacity{0};
 };
 }  // namespace posidonia

@@ -17,7 +17,9 @@ struct TPoseEdge
 	/** Node of an error c that this measurement shares with others, or -1: the measurement is then meant as
 	 * retract(T_from_to, sensitivity c). */
 	int error_variable{-1};
-	Matrix6d sensitivity{Matrix6d::Zero()};	 ///< d(rho, phi) of T_from_to / d c
+	/** d(rho, phi) of T_from_to / d c, 6 x 6; without columns where there is no error variable, since a large
+	 * graph has many edges. */
+	Eigen::Matrix<double, 6, Eigen::Dynamic> sensitivity{6, 0};
 };
 
 /** The edge's measurement with the shared error taken out. @param c value of its error variable */

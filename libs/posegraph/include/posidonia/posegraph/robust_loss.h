@@ -27,4 +27,9 @@ double robustCost(const TRobustLoss& loss, double s);
 /** weight rho'(s), rho' in (0, 1]: the weight of the information in iteratively re-weighted least squares
  * (Holland, Welsch 1977). */
 double robustWeight(const TRobustLoss& loss, double s);
+
+/** Factor on the loss that makes the information which the normal equations state, weights included, that
+ * which the estimate has when the errors of `dof` numbers are Gaussian (README, "Optimiser"): above 1, since
+ * a loss weighs good measurements down too, and their information is not lost by as much. */
+double honestFactor(const TRobustLoss& loss, int dof);
 }  // namespace posidonia

@@ -27,7 +27,9 @@ struct TOptimizerOptions
 		v.integer("max_iterations", max_iterations, between(1, 100000), "Linear systems solved at most");
 		v.number(
 			"min_relative_decrease", min_relative_decrease, atLeast(0),
-			"Converged when a step lowers the cost, or is predicted to, by less than this part of it [-]");
+			"Converged when a step lowers the cost, is predicted to, or those after it will, by less than "
+			"this part "
+			"of it [-]");
 		v.number("min_step", min_step, atLeast(0), "Converged when no coordinate moves more [m, rad]");
 		v.number(
 			"min_gradient", min_gradient, atLeast(0),
@@ -107,6 +109,7 @@ class CSparseOptimizer
 		TChi2 cost;
 		double mu;	   ///< damping
 		double nu{2};  ///< growth of the damping at the next rejection
+		double last_decrease{0};
 	};
 
 	bool iterate(TRun& run);
@@ -115,6 +118,7 @@ class CSparseOptimizer
 	bool solveDamped(TRun& run);
 	bool judge(TRun& run);
 	bool accept(TRun& run, const TChi2& trial, bool small);
+	static double decreaseToCome(const TRun& run, double decrease);
 	bool reject(TRun& run, EOptimizerStatus why);
 	void finish(TRun& run, const TNodeStates& start) const;
 	void moveNodes(const CPoseGraph& graph);
