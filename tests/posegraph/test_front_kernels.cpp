@@ -1,6 +1,6 @@
+#include <elimination/simd/front_kernels.h>
 #include <gtest/gtest.h>
 #include <posidonia/base/error.h>
-#include <simd/front_kernels.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -17,16 +17,6 @@ namespace
 {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-std::vector<const TFrontKernels*> kernelsOfThisCpu()
-{
-	std::vector<const TFrontKernels*> out{&kFrontKernelsSse2};
-#ifdef POSIDONIA_X86
-	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) out.push_back(&kFrontKernelsAvx2);
-	if (__builtin_cpu_supports("avx512f")) out.push_back(&kFrontKernelsAvx512);
-#endif
-	return out;
-}
 
 MatrixXd randomMatrix(std::mt19937& rng, int rows, int columns)
 {
@@ -111,7 +101,7 @@ class FrontKernels : public ::testing::TestWithParam<const TFrontKernels*>
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(
-	OfThisCpu, FrontKernels, ::testing::ValuesIn(kernelsOfThisCpu()),
+	OfThisCpu, FrontKernels, ::testing::ValuesIn(availableFrontKernels()),
 	[](const auto& info) { return std::string(info.param->name); });
 
 TEST_P(FrontKernels, FactorizeEqualsDenseCholesky)
@@ -267,7 +257,7 @@ TEST_P(FrontKernels, TheBlockColumnThatIsNotFiniteIsNamed)
 TEST(FrontKernelsChoice, FollowsTheEnvironment)
 {
 	GTEST_FLAG_SET(death_test_style, "threadsafe");
-	for (const auto* kernels : kernelsOfThisCpu())
+	for (const auto* kernels : availableFrontKernels())
 		EXPECT_EXIT(
 			{
 				setenv("POSIDONIA_SIMD", kernels->name, 1);
@@ -278,7 +268,7 @@ TEST(FrontKernelsChoice, FollowsTheEnvironment)
 	EXPECT_EXIT(
 		{
 			unsetenv("POSIDONIA_SIMD");
-			std::exit(&frontKernels() == kernelsOfThisCpu().back() ? 0 : 1);
+			std::exit(&frontKernels() == availableFrontKernels().back() ? 0 : 1);
 		},
 		::testing::ExitedWithCode(0), "");
 	EXPECT_EXIT(

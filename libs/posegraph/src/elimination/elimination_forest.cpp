@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "elimination/front_storage.h"
+
 namespace posidonia
 {
 namespace
@@ -16,13 +18,13 @@ struct TNode
 };
 
 /** Seconds to eliminate a front, in arbitrary units: a call, its entries to clear and sum, its products. */
-double frontTime(double pivots, double separator)
+double frontTime(size_t pivots, size_t separator)
 {
 	constexpr double kCall = 4000, kEntry = 6;	// of one multiply-add; flat round these
-	const double p = 6 * pivots, s = 6 * separator;
+	const double p = 6 * double(pivots), s = 6 * double(separator);
 	const double entries =
 		p * (p + 1) / 2 + p * s + s * s;  // the separator's: cleared here, summed in the parent
-	return kCall + kEntry * entries + p * p * p / 6 + p * p * s / 2 + p * s * s / 2;
+	return kCall + kEntry * entries + eliminationWork(int(pivots), int(separator));
 }
 
 /** Symbolic elimination: the forest of fundamental cliques. */
@@ -96,7 +98,7 @@ class CSymbolicElimination
 
 double frontTime(const TNode& node)
 {
-	return frontTime(double(node.pivots.size()), double(node.structure.size()));
+	return frontTime(node.pivots.size(), node.structure.size());
 }
 
 /** Joins `child` with its parent. */
@@ -120,8 +122,8 @@ void amalgamate(std::vector<TNode>& nodes, const std::vector<int>& postorder)
 			return nodes[a].structure.size() > nodes[b].structure.size();
 		});
 		for (const int c : candidates) {
-			const double pivots = double(p.pivots.size() + nodes[c].pivots.size());
-			if (frontTime(pivots, double(p.structure.size())) > frontTime(p) + frontTime(nodes[c])) continue;
+			const size_t pivots = p.pivots.size() + nodes[c].pivots.size();
+			if (frontTime(pivots, p.structure.size()) > frontTime(p) + frontTime(nodes[c])) continue;
 			p.children.erase(std::find(p.children.begin(), p.children.end(), c));
 			absorb(nodes, parent, c);
 		}

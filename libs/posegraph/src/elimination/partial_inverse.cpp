@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simd/front_kernels.h"
+#include "elimination/simd/front_kernels.h"
 
 namespace posidonia
 {

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <thread>
 
-#include "front_storage.h"
-#include "simd/front_kernels.h"
+#include "elimination/front_storage.h"
+#include "elimination/simd/front_kernels.h"
 
 namespace posidonia
 {

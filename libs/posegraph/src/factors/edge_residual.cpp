@@ -1,6 +1,6 @@
 #include <posidonia/posegraph/edge_residual.h>
 
-#include "pose_error.h"
+#include "factors/pose_error.h"
 
 namespace posidonia
 {

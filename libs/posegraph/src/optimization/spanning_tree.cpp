@@ -3,7 +3,7 @@
 #include <deque>
 #include <numeric>
 
-#include "anchors.h"
+#include "graph/anchors.h"
 
 namespace posidonia
 {

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "anchors.h"
+#include "graph/anchors.h"
 
 namespace posidonia
 {

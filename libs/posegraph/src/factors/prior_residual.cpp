@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pose_error.h"
+#include "factors/pose_error.h"
 
 namespace posidonia
 {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "simd/front_kernels.h"
+#include "elimination/simd/front_kernels.h"
 
 namespace posidonia
 {

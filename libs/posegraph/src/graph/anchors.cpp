@@ -1,4 +1,4 @@
-#include "anchors.h"
+#include "graph/anchors.h"
 
 #include <posidonia/base/error.h>
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "front_storage.h"
-#include "simd/front_kernels.h"
+#include "elimination/front_storage.h"
+#include "elimination/simd/front_kernels.h"
 
 namespace posidonia
 {

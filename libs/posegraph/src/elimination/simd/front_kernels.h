@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace posidonia
 {
@@ -41,6 +42,9 @@ struct TFrontKernels
 	void (*multiply)(
 		const double* A, int lda, int rows, int n, const double* X, double* C, int ldc, int groups);
 };
+
+/** Those that this CPU can run, best last. */
+std::vector<const TFrontKernels*> availableFrontKernels();
 
 /** Best kernels for this CPU, or those named by the environment variable POSIDONIA_SIMD (sse2, avx2, avx512)
  * when the CPU has them; chosen once. Results differ in the last bits between them. */

@@ -4,14 +4,10 @@
 
 #include <cstdlib>
 #include <string>
-#include <vector>
 
 namespace posidonia
 {
-namespace
-{
-/** Kernels that this CPU can run, best last. */
-std::vector<const TFrontKernels*> available()
+std::vector<const TFrontKernels*> availableFrontKernels()
 {
 	std::vector<const TFrontKernels*> out{&kFrontKernelsSse2};
 #ifdef POSIDONIA_X86
@@ -21,9 +17,11 @@ std::vector<const TFrontKernels*> available()
 	return out;
 }
 
+namespace
+{
 const TFrontKernels& choose()
 {
-	const auto kernels = available();
+	const auto kernels = availableFrontKernels();
 	const char* wanted = std::getenv("POSIDONIA_SIMD");
 	if (!wanted || !*wanted) return *kernels.back();
 	std::string names;

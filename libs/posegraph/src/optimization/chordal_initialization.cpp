@@ -5,7 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <numeric>
 
-#include "anchors.h"
+#include "graph/anchors.h"
 
 namespace posidonia
 {

@@ -1,4 +1,4 @@
-#include "front_storage.h"
+#include "elimination/front_storage.h"
 
 #include <algorithm>
 
