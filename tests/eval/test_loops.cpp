@@ -68,6 +68,22 @@ TEST(LoopsFile, ReadsWhatIsDocumented)
 	EXPECT_TRUE(readLoops(CTextFile(kHeader).path()).empty());
 }
 
+TEST(LoopsFile, ReadsTheWeightsOfEdges)
+{
+	const CTextFile file(
+		"from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw,weight\n"
+		"3,40,roi,accepted,55,41,0.52,1,2,3,0,0,0.6,0.8,0.7\n"
+		"4,40,roi,accepted,55,41,0.52,1,2,3,0,0,0.6,0.8,0.1\n"
+		"5,40,roi,too few matches,7,,,,,,,,,,\n");
+	const auto rows = readLoops(file.path());
+	ASSERT_EQ(rows.size(), 3u);
+	EXPECT_EQ(rows[0].weight, 0.7);
+	EXPECT_FALSE(rows[0].rejected());
+	EXPECT_TRUE(rows[1].rejected());
+	EXPECT_FALSE(rows[2].weight.has_value());
+	EXPECT_FALSE(rows[2].rejected());
+}
+
 TEST(LoopsFile, ErrorsNameFileAndLine)
 {
 	const std::vector<std::pair<std::string, std::string>> cases{

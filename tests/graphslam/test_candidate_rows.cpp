@@ -113,17 +113,34 @@ TEST(CandidateRows, noPairIsCountedTwice)
 	EXPECT_GT(loops, 0);
 }
 
+TEST(CandidateRows, acceptedOnesTellTheWeightOfTheirEdge)
+{
+	TSetup setup = secondExperiment();
+	setup.stop_at_nodes = 8;
+	const auto slam = run(setup);
+	slam->makeExact();
+	int below = 0;
+	for (const auto& row : slam->map().candidates) {
+		EXPECT_GT(row.weight, 0) << row.from << " to " << row.to;
+		EXPECT_LE(row.weight, 1) << row.from << " to " << row.to;
+		below += row.weight < 1;
+		EXPECT_TRUE(row.accepted() || row.weight == 1) << row.from << " to " << row.to;
+	}
+	EXPECT_GT(below, 5) << "a Cauchy loss leaves none whole";
+}
+
 TEST(CandidateRows, csvHasALineARow)
 {
 	TCandidateRow refused{1, 9, EEdgeKind::ROI, "too few matches", 12};
 	TCandidateRow accepted{2, 9, EEdgeKind::SEQUENTIAL, "accepted", 80, 60, 0.5};
 	accepted.measured = true;
 	accepted.T_from_to.translation() << 1, -2, 0.25;
+	accepted.weight = 0.25;
 	EXPECT_EQ(
 		candidatesCsv({refused, accepted}),
-		"from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw\n"
-		"1,9,roi,too few matches,12,0,0.000000,,,,,,,\n"
+		"from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw,weight\n"
+		"1,9,roi,too few matches,12,0,0.000000,,,,,,,,\n"
 		"2,9,sequential,accepted,80,60,0.500000,1.000000000,-2.000000000,0.250000000,0.000000000000,0."
 		"000000000000,"
-		"0.000000000000,1.000000000000\n");
+		"0.000000000000,1.000000000000,0.2500\n");
 }

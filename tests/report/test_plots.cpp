@@ -118,6 +118,7 @@ TEST(TrajectoryPlot, LeavesOutWhatIsEmpty)
 	EXPECT_NE(svg.find(">SLAM<"), std::string::npos);
 	EXPECT_EQ(svg.find(">odometry<"), std::string::npos);
 	EXPECT_EQ(svg.find("loop closings"), std::string::npos);
+	EXPECT_EQ(svg.find("turned down"), std::string::npos);
 	EXPECT_THROW(plotTrajectories({}), CError);
 }
 
@@ -132,8 +133,13 @@ TEST(TrajectoryPlot, LoopSegmentsAreTheAcceptedLoops)
 	const auto segments = loopSegments({rows[0], rows[1], rows[2]}, nodes);
 	ASSERT_EQ(segments.size(), 1u);
 	EXPECT_EQ(segments[0].second, nodes[7].T.translation());
+	EXPECT_TRUE(rejectedLoopSegments(rows, nodes).empty());
+	rows[0].weight = 0.1;
+	EXPECT_TRUE(loopSegments({rows[0]}, nodes).empty());
+	ASSERT_EQ(rejectedLoopSegments(rows, nodes).size(), 1u);
+	EXPECT_EQ(rejectedLoopSegments(rows, nodes)[0].second, nodes[7].T.translation());
 	rows[0].to = nodes.size();
-	EXPECT_THROW(loopSegments({rows[0]}, nodes), CError);
+	EXPECT_THROW(rejectedLoopSegments({rows[0]}, nodes), CError);
 }
 
 TEST(ErrorPlot, CurvesAreTheErrorsAlongTheRoute)

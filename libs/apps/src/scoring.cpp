@@ -103,8 +103,9 @@ TScore scoreRun(
 	const std::string title =
 		scoring.paper_experiment ? "Experiment " + std::to_string(scoring.paper_experiment) : "Survey";
 	folder.write(
-		"trajectories.svg",
-		plotTrajectories({title, run.odom, truth, run.nodes, loopSegments(loops, run.nodes)}));
+		"trajectories.svg", plotTrajectories(
+								{title, run.odom, truth, run.nodes, loopSegments(loops, run.nodes),
+								 rejectedLoopSegments(loops, run.nodes)}));
 	folder.write("error.svg", plotErrors({title, errors("odom"), errors("nodes")}));
 	return {scores.metrics(), tableText(scoring.paper_experiment, scores)};
 }

@@ -16,9 +16,11 @@ void CSparseGSO::useParts(TSlamParts& parts)
 	CUsesSlamParts::useParts(parts);
 	parts.uncertainty = this;
 	parts.make_exact = [this] { makeExact(); };
-	m_incremental =
-		std::make_unique<CIncrementalOptimizer>(parts.options.incremental, parts.options.optimizer);
-	m_batch = std::make_unique<CSparseOptimizer>(parts.options.optimizer);
+	const TOptimizerOptions& batch = parts.options.optimizer;
+	if (parts.options.loss.incremental)
+		m_incremental = std::make_unique<CIncrementalOptimizer>(parts.options.incremental, batch);
+	else
+		m_batch = std::make_unique<CSparseOptimizer>(batch);
 }
 
 bool CSparseGSO::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObservation::Ptr)
@@ -45,7 +47,7 @@ void CSparseGSO::optimizeGraph()
 {
 	const mrpt::system::CTimeLoggerEntry timing(m_parts->timer, "optimize");
 	m_marginals.reset();
-	if (m_parts->options.loss.incremental)
+	if (m_incremental)
 		updateIncrementally();
 	else
 		m_batch->optimize(m_pose_graph);
@@ -77,14 +79,18 @@ void CSparseGSO::makeExact()
 	options.min_relative_decrease =
 		std::min(options.min_relative_decrease, TOptimizerOptions().min_relative_decrease);
 	options.min_gradient = std::min(options.min_gradient, TOptimizerOptions().min_gradient);
-	CSparseOptimizer(options).optimize(m_pose_graph);
+	const TOptimizerResult result = CSparseOptimizer(options).optimize(m_pose_graph);
 	handOver();
+	std::vector<double> weights;
+	for (size_t e = 0; e < m_pose_graph.edgeCount(); e++)
+		weights.push_back(result.edge_weights[e] / m_pose_graph.edges()[e].loss.weight);
+	m_parts->map.setWeights(weights);
 }
 
 std::vector<Matrix6d> CSparseGSO::relativeCovariances(const CSlamMap&, const std::vector<int>& is, int j)
 {
 	// One factorisation serves every decider of a step.
-	if (m_parts->options.loss.incremental) {
+	if (m_incremental) {
 		if (j >= m_followed_nodes) updateIncrementally();
 		return m_incremental->marginals().relativeCovariances(is, j);
 	}

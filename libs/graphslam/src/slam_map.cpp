@@ -146,9 +146,20 @@ std::vector<double> CSlamMap::odometryMetresTo(int to) const
 	return metres;
 }
 
+void CSlamMap::setWeights(const std::vector<double>& weights)
+{
+	std::map<std::pair<int, int>, double> of_pair;
+	for (size_t e = 0; e < m_edges.size(); e++)
+		if (m_edges[e].kind != EEdgeKind::ODOMETRY) of_pair[{m_edges[e].from, m_edges[e].to}] = weights[e];
+	for (TCandidateRow& row : candidates) {
+		const auto found = of_pair.find({row.from, row.to});
+		if (row.accepted() && found != of_pair.end()) row.weight = found->second;
+	}
+}
+
 std::string candidatesCsv(const std::vector<TCandidateRow>& rows)
 {
-	std::string csv = "from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw\n";
+	std::string csv = "from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw,weight\n";
 	char line[512];
 	for (const auto& row : rows) {
 		std::snprintf(
@@ -166,7 +177,8 @@ std::string candidatesCsv(const std::vector<TCandidateRow>& rows)
 		else {
 			csv += ",,,,,,,";
 		}
-		csv += "\n";
+		std::snprintf(line, sizeof line, row.accepted() ? ",%.4f\n" : ",\n", row.weight);
+		csv += line;
 	}
 	return csv;
 }

@@ -35,6 +35,15 @@ Eigen::Vector3d position(const TTrajectory& nodes, std::uint64_t id)
 			"are loops.csv and nodes.tum of the same run?");
 	return nodes[id].T.translation();
 }
+
+std::vector<TSegment> segmentsOf(const std::vector<TLoopRow>& rows, const TTrajectory& nodes, bool rejected)
+{
+	std::vector<TSegment> segments;
+	for (const auto& row : rows)
+		if (row.accepted() && !row.consecutive() && row.rejected() == rejected)
+			segments.emplace_back(position(nodes, row.from), position(nodes, row.to));
+	return segments;
+}
 }  // namespace
 
 std::string plotTrajectories(const TTrajectoryPlot& plot)
@@ -45,7 +54,9 @@ std::string plotTrajectories(const TTrajectoryPlot& plot)
 		 true},
 		{"truth", styles::truth(), northEast(plot.truth)},
 		{"odometry", styles::odometry(), northEast(plot.odometry)},
-		{"SLAM", styles::slam(), northEast(plot.slam)}};
+		{"SLAM", styles::slam(), northEast(plot.slam)},
+		{"loops turned down (" + std::to_string(plot.rejected_loops.size()) + ")", styles::rejectedLoops(),
+		 northEast(plot.rejected_loops), true}};
 	TPlotSize size;
 	size.height = 560;
 	size.equal_scale = true;
@@ -54,10 +65,11 @@ std::string plotTrajectories(const TTrajectoryPlot& plot)
 
 std::vector<TSegment> loopSegments(const std::vector<TLoopRow>& rows, const TTrajectory& nodes)
 {
-	std::vector<TSegment> segments;
-	for (const auto& row : rows)
-		if (row.accepted() && !row.consecutive())
-			segments.emplace_back(position(nodes, row.from), position(nodes, row.to));
-	return segments;
+	return segmentsOf(rows, nodes, false);
+}
+
+std::vector<TSegment> rejectedLoopSegments(const std::vector<TLoopRow>& rows, const TTrajectory& nodes)
+{
+	return segmentsOf(rows, nodes, true);
 }
 }  // namespace posidonia

@@ -6,13 +6,14 @@
 #include <utility>
 #ifdef __linux__
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace posidonia
 {
 namespace
 {
-constexpr size_t kHugePage = size_t(2) << 20, kMapped = size_t(1) << 20, kPage = 4096, kLine = 64;
+constexpr size_t kHugePage = size_t(2) << 20, kMapped = size_t(1) << 20, kLine = 64;
 
 size_t rounded(size_t bytes, size_t unit)
 {
@@ -20,12 +21,18 @@ size_t rounded(size_t bytes, size_t unit)
 }
 
 #ifdef __linux__
+size_t pageSize()
+{
+	static const size_t size = size_t(sysconf(_SC_PAGESIZE));
+	return size;
+}
+
 /** Whole pages of the system's own, which go back to it when they are freed: in the heap, freed pieces
  * between small ones that stay would double the memory of a graph that grows. They start at a huge page; what
  * is mapped too much for that is given back. */
 void* mapped(size_t bytes)
 {
-	const size_t reserved = bytes + kHugePage - kPage;
+	const size_t reserved = bytes + kHugePage - pageSize();
 	void* begin = mmap(nullptr, reserved, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 	if (begin == MAP_FAILED) throw std::bad_alloc();
 	char* const first = static_cast<char*>(begin);
@@ -74,7 +81,7 @@ void CLargeBuffer::resize(size_t count)
 	const size_t wanted = count * sizeof(double);
 #ifdef __linux__
 	if (wanted >= kMapped) {
-		const size_t bytes = rounded(wanted, kPage);
+		const size_t bytes = rounded(wanted, pageSize());
 		m_data = TDoubles(static_cast<double*>(mapped(bytes)), TFree{bytes});
 		m_capacity = bytes / sizeof(double);
 		return;

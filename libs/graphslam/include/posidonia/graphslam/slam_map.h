@@ -60,6 +60,10 @@ struct TCandidateRow
 	double rmse_px{0};
 	Eigen::Isometry3d T_from_to{Eigen::Isometry3d::Identity()};
 	bool measured{false};  ///< Does T_from_to hold a registration?
+	/** Accepted pairs: what the robust loss left of the edge's information at the end of a run, 0 .. 1. */
+	double weight{1};
+
+	bool accepted() const { return status == "accepted" || status == "accepted on retry"; }
 };
 
 /** The map that deciders and optimiser share: MRPT's graph with, in order of insertion and without the detour
@@ -101,6 +105,9 @@ class CSlamMap
 	 * count nothing, since they do not pass on the odometry's drift. */
 	std::vector<double> odometryMetresTo(int to) const;
 
+	/** To the candidates that became edges. @param weights of every edge */
+	void setWeights(const std::vector<double>& weights);
+
 	Matrix6d root_covariance{Matrix6d::Zero()};	 ///< Of the first node's T_odom_body, over (rho, phi)
 	std::vector<TCandidateRow> candidates;		 ///< Every pair that was considered, in order
 
@@ -118,6 +125,7 @@ class CSlamMap
 	size_t m_edges_shared{0};		  // edges that shareInformation() has seen
 };
 
-/** loops.csv of the candidates: from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw. */
+/** loops.csv of the candidates: from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw,weight.
+ */
 std::string candidatesCsv(const std::vector<TCandidateRow>& rows);
 }  // namespace posidonia

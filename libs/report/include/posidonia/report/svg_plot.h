@@ -35,6 +35,10 @@ inline TLineStyle loops()
 {
 	return {"#0072b2", 0.9, "1.5 2", 0.85};
 }  ///< blue, dotted
+inline TLineStyle rejectedLoops()
+{
+	return {"#cc79a7", 1.6, "", 1};
+}  ///< pink
 }  // namespace styles
 
 /** Lines between points; a point that is not finite breaks a line and is not drawn. */
