@@ -78,6 +78,7 @@ CPoseGraph graphOf(const CSlamMap& map, const TGraphStatistics& which, const TSt
 	TSlamGraph mrpts;
 	CSlamMap part;
 	part.bind(mrpts);
+	part.root_covariance = map.root_covariance;
 	for (int i = 0; i < map.nodeCount(); i++)
 		part.addNode(map.node(i), map.pose(i));
 	for (TSlamEdge edge : map.edges()) {

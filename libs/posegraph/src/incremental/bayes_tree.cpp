@@ -32,23 +32,35 @@ int CBayesTree::cliqueOfFactor(int factor) const
 	return factor < int(m_clique_of_factor.size()) ? m_clique_of_factor[factor] : -1;
 }
 
-/** Rests are as large as L again; they matter only where a parent is touched. Of cliques that have not been
- * touched for long only so many are kept that each stands for kStandsFor times as many pivots as its
+/** Rests are larger than L together; they matter only where a parent is touched. Of cliques that have not
+ * been touched for long only so many are kept that each stands for kStandsFor times as many pivots as its
  * separator has: finding it again costs about so many dense eliminations of that size. */
-void CBayesTree::dropRests()
+void CBayesTree::dropOldRests()
 {
 	constexpr size_t kHot = 200;  // updates
 	constexpr int kStandsFor = 8;
 	for (; !m_by_age.empty() && m_by_age.front().since + kHot < m_version; m_by_age.pop_front()) {
 		TClique& clique = m_cliques[m_by_age.front().clique];
-		if (clique.made != m_by_age.front().made || clique.parent < 0) continue;
-		clique.kept_below = int(clique.pivots.size());
-		for (const int child : clique.children)
-			if (!m_cliques[child].has_rest) clique.kept_below += m_cliques[child].kept_below;
-		if (clique.kept_below >= kStandsFor * clique.left()) continue;
-		clique.rest = {};
-		clique.has_rest = false;
+		if (clique.made == m_by_age.front().made && clique.parent >= 0) dropRestUnless(clique, kStandsFor);
 	}
+}
+
+/** Of large fronts, which are cut into long chains, one dense elimination is risked at once. */
+void CBayesTree::dropLargeRestsBelow(const TClique& clique)
+{
+	constexpr size_t kLarge = 1 << 17;	// doubles
+	for (const int child : clique.children)
+		if (m_cliques[child].rest.size() > kLarge) dropRestUnless(m_cliques[child], 1);
+}
+
+void CBayesTree::dropRestUnless(TClique& clique, int stands_for)
+{
+	clique.kept_below = int(clique.pivots.size());
+	for (const int child : clique.children)
+		if (!m_cliques[child].has_rest) clique.kept_below += m_cliques[child].kept_below;
+	if (clique.kept_below >= stands_for * clique.left()) return;
+	clique.rest = {};
+	clique.has_rest = false;
 }
 
 CBayesTree::TTop CBayesTree::takeTop()
@@ -106,9 +118,10 @@ int CBayesTree::eliminate(
 	for (const int c : m_fresh) {
 		const int failed = eliminateClique(m_cliques[c], factors);
 		if (failed >= 0) return failed;
+		dropLargeRestsBelow(m_cliques[c]);
 		m_by_age.push_back({c, m_version, m_version});
 	}
-	dropRests();
+	dropOldRests();
 	return -1;
 }
 

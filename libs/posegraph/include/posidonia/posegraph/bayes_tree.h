@@ -129,7 +129,9 @@ class CBayesTree : public CCliqueFactor
 	float changeOf(const TClique& clique, const Vector6d& tolerance, const std::vector<Vector6d>& d);
 	void take(const TClique& clique, std::vector<Vector6d>& d);
 	int newSlot();
-	void dropRests();
+	void dropOldRests();
+	void dropLargeRestsBelow(const TClique& clique);
+	void dropRestUnless(TClique& clique, int stands_for);
 
 	const TFrontKernels* m_kernels;
 	std::vector<TClique> m_cliques;
