@@ -28,10 +28,6 @@ CIncrementalOptimizer::CIncrementalOptimizer(
 	const TIncrementalOptions& options, const TOptimizerOptions& batch)
 	: m_options(options), m_batch(batch)
 {
-	if (getenv("RELIN")) m_options.relinearize_step = atof(getenv("RELIN"));
-	if (getenv("REW")) m_options.reweigh_step = atof(getenv("REW"));
-	if (getenv("STOL")) m_options.solve_tolerance = atof(getenv("STOL"));
-	if (getenv("NL")) m_options.inner_ring = atoi(getenv("NL"));
 }
 
 TIncrementalResult CIncrementalOptimizer::update(
@@ -196,6 +192,7 @@ void CIncrementalOptimizer::takeAllOut(const CPoseGraph& graph)
 	}
 	for (int factor = 0; factor < int(m_factors.size()); factor++)
 		if (m_factor_nodes[factor].count > 0) m_new_factors.push_back(factor);
+	m_outlook = outlook();
 }
 
 CMarginals CIncrementalOptimizer::marginals() const

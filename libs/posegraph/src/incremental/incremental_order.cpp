@@ -49,7 +49,7 @@ std::vector<double> CIncrementalOptimizer::nearness(const std::vector<int>& node
 void CIncrementalOptimizer::touchAhead()
 {
 	constexpr int kMuch = 4, kAhead = 2;  // innermost rings
-	if (m_tree.touchedNodes() < kMuch * m_options.inner_ring) return;
+	if (m_outlook.newest < 0 || m_tree.touchedNodes() < kMuch * m_options.inner_ring) return;
 	std::vector<int> seen;
 	std::priority_queue<std::pair<double, int>> queue;
 	const auto see = [&](int node) {
