@@ -120,16 +120,6 @@ inline Eigen::Isometry3d noisy(std::mt19937& rng, const Eigen::Isometry3d& T, do
 	return retract(T, gaussian6(rng, sigmas));
 }
 
-inline TPosePrior prior(int node, EPriorKind kind, const Eigen::Isometry3d& measured, double sigma)
-{
-	TPosePrior out;
-	out.node = node;
-	out.kind = kind;
-	out.T_map_node = measured;
-	out.information = Matrix6d::Identity() / (sigma * sigma);
-	return out;
-}
-
 constexpr double kScaleError = 0.03;
 
 /** A survey that nothing fixes: depth, roll, pitch, now and then heading and position hold it. Node 0 is the
@@ -145,12 +135,12 @@ inline CPoseGraph surveyWithPriors(int poses)
 	for (int i = 0; i < poses; i++) {
 		out.addNode(plain.graph.pose(i));
 		const auto& T = plain.planted[size_t(i)];
-		out.addPrior(prior(i + 1, EPriorKind::Depth, noisy(rng, T, 0.02, 0), 0.02));
-		TPosePrior tilt = prior(i + 1, EPriorKind::RollPitch, noisy(rng, T, 0, 0.005), 0.005);
+		out.addPrior(priorOn(i + 1, EPriorKind::Depth, noisy(rng, T, 0.02, 0), 0.02));
+		TPosePrior tilt = priorOn(i + 1, EPriorKind::RollPitch, noisy(rng, T, 0, 0.005), 0.005);
 		out.addPrior(tilt);
-		if (i % 10 == 0) out.addPrior(prior(i + 1, EPriorKind::Heading, noisy(rng, T, 0, 0.02), 0.02));
+		if (i % 10 == 0) out.addPrior(priorOn(i + 1, EPriorKind::Heading, noisy(rng, T, 0, 0.02), 0.02));
 		if (i % 40 == 0)
-			out.addPrior(prior(i + 1, EPriorKind::HorizontalPosition, noisy(rng, T, 0.3, 0), 0.3));
+			out.addPrior(priorOn(i + 1, EPriorKind::HorizontalPosition, noisy(rng, T, 0.3, 0), 0.3));
 	}
 	for (TPoseEdge edge : plain.graph.edges()) {
 		const bool odometry = edge.to == edge.from + 1;

@@ -59,6 +59,17 @@ inline TPlantedGraph plantedGraph(unsigned seed, int n, int extra, double sigma,
 	return out;
 }
 
+/** A prior that says that the node is at T, isotropic [m, rad]. */
+inline TPosePrior priorOn(int node, EPriorKind kind, const Eigen::Isometry3d& T, double sigma)
+{
+	TPosePrior prior;
+	prior.node = node;
+	prior.kind = kind;
+	prior.T_map_node = T;
+	prior.information = Matrix6d::Identity() / (sigma * sigma);
+	return prior;
+}
+
 /** Moves every free node by Gaussian noise of `sigma` [m, rad]. */
 inline void perturb(CPoseGraph& graph, unsigned seed, double sigma)
 {

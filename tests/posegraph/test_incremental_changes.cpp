@@ -1,4 +1,4 @@
-#include <functional>
+#include <temp_folder.h>
 
 #include "incremental_checks.h"
 
@@ -7,17 +7,6 @@ using namespace posidonia::testing;
 
 namespace
 {
-std::string messageOf(const std::function<void()>& act)
-{
-	try {
-		act();
-	}
-	catch (const CError& error) {
-		return error.what();
-	}
-	return "(no error)";
-}
-
 /** Fixed node 0, node 1 hanging on it. */
 CPoseGraph twoNodes(std::mt19937& rng, std::vector<Eigen::Isometry3d>& planted)
 {
@@ -107,7 +96,7 @@ TEST(Incremental, AnUnheldNodeIsNamedAndTheOptimiserGoesOn)
 	optimizer.update(graph);
 	graph.addNode(noisy(rng, planted[2], 0.05, 0.05));
 	for (int attempt = 0; attempt < 2; attempt++) {
-		const std::string message = messageOf([&] { optimizer.update(graph); });
+		const std::string message = errorOf<CError>([&] { optimizer.update(graph); });
 		EXPECT_NE(message.find("node 2"), std::string::npos) << message << ", attempt " << attempt;
 	}
 	graph.addEdge(measure(rng, planted, 1, 2, 0.01, true));
@@ -128,7 +117,7 @@ TEST(Incremental, ASurveyGoesOnAfterAnUnheldNode)
 	while (arrival.more()) {
 		const int node = arrival.addNodeAlone();
 		if (node == 100) {
-			const std::string message = messageOf([&] { optimizer.update(arrival.graph); });
+			const std::string message = errorOf<CError>([&] { optimizer.update(arrival.graph); });
 			EXPECT_NE(message.find("node 100"), std::string::npos) << message;
 		}
 		arrival.addFactorsOf(node);
@@ -150,7 +139,7 @@ TEST(Incremental, ANodeWithoutInformationIsNamedAndTheOptimiserGoesOn)
 	TPoseEdge edge = measure(rng, planted, 1, 2, 0.01, true);
 	edge.loss.weight = 0;
 	const int k = graph.addEdge(edge);
-	const std::string message = messageOf([&] { optimizer.update(graph); });
+	const std::string message = errorOf<CError>([&] { optimizer.update(graph); });
 	EXPECT_NE(message.find("node 2"), std::string::npos) << message;
 	graph.setLoss(k, {});
 	optimizer.update(graph, {k});
@@ -170,6 +159,14 @@ TEST(Incremental, NothingToDoIsNoError)
 	graph.addErrorVariable(Vector6d::Constant(0.1), Matrix6d::Identity());
 	EXPECT_EQ(optimizer.update(graph).eliminated, 1);
 	EXPECT_TRUE(graph.errorVariable(1).isApprox(Vector6d::Constant(0.1), 1e-12));
+}
+
+TEST(Incremental, RefineMayBeTheFirstCall)
+{
+	auto whole = lawnMower(survey(150));
+	CIncrementalOptimizer optimizer;
+	expectRefinedEqualsBatch(optimizer, whole.graph);
+	EXPECT_EQ(optimizer.update(whole.graph).solved, 0);
 }
 
 /** refine() may be the first to see new nodes. */

@@ -6,22 +6,14 @@
 
 #include <Eigen/Dense>
 
+#include "random_graph.h"
+
 using namespace posidonia;
 using namespace posidonia::testing;
 
 namespace
 {
 constexpr int kPoses = 500;
-
-TPosePrior priorOn(int node, EPriorKind kind, const Eigen::Isometry3d& T, double sigma)
-{
-	TPosePrior prior;
-	prior.node = node;
-	prior.kind = kind;
-	prior.T_map_node = T;
-	prior.information = Matrix6d::Identity() / (sigma * sigma);
-	return prior;
-}
 
 /** A survey with loops, priors of several kinds, a shared error of the odometry and a fixed node. */
 CPoseGraph largeGraph()

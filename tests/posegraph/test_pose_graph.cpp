@@ -2,6 +2,7 @@
 #include <posidonia/base/error.h>
 #include <posidonia/posegraph/chi2.h>
 #include <posidonia/posegraph/spanning_tree.h>
+#include <temp_folder.h>
 
 #include "random_graph.h"
 
@@ -10,20 +11,6 @@
 
 using namespace posidonia;
 using namespace posidonia::testing;
-
-namespace
-{
-std::string messageOf(const std::function<void()>& act)
-{
-	try {
-		act();
-	}
-	catch (const CError& error) {
-		return error.what();
-	}
-	return "(no error)";
-}
-}  // namespace
 
 TEST(PoseGraph, RefusesBadEdgesByName)
 {
@@ -51,7 +38,7 @@ TEST(PoseGraph, RefusesBadEdgesByName)
 		CPoseGraph graph = planted.graph;
 		TPoseEdge edge = graph.edge(2);
 		b.spoil(edge);
-		const std::string message = messageOf([&] { graph.addEdge(edge); });
+		const std::string message = errorOf<CError>([&] { graph.addEdge(edge); });
 		EXPECT_NE(message.find(b.problem), std::string::npos) << message;
 		EXPECT_NE(message.find("edge 4 (" + std::to_string(edge.from)), std::string::npos) << message;
 		EXPECT_EQ(graph.edgeCount(), 4u) << b.problem;
@@ -63,8 +50,8 @@ TEST(PoseGraph, RefusesBadNodes)
 	CPoseGraph graph;
 	Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
 	T.translation().z() = std::numeric_limits<double>::infinity();
-	EXPECT_NE(messageOf([&] { graph.addNode(T); }).find("node 0"), std::string::npos);
-	EXPECT_NE(messageOf([&] { graph.pose(3); }).find("node 3"), std::string::npos);
+	EXPECT_NE(errorOf<CError>([&] { graph.addNode(T); }).find("node 0"), std::string::npos);
+	EXPECT_NE(errorOf<CError>([&] { graph.pose(3); }).find("node 3"), std::string::npos);
 }
 
 TEST(PoseGraph, TakesASecondEdgeBetweenTheSamePair)
@@ -101,6 +88,6 @@ TEST(SpanningTree, AlongTheChainOnlyIsDeadReckoning)
 TEST(SpanningTree, NamesANodeThatItCannotReach)
 {
 	auto planted = plantedGraph(5, 10, 0, 0.1, true);
-	const auto message = messageOf([&] { initializeFromSpanningTree(planted.graph, {0, 1, 2, 4}); });
+	const auto message = errorOf<CError>([&] { initializeFromSpanningTree(planted.graph, {0, 1, 2, 4}); });
 	EXPECT_NE(message.find("node 4"), std::string::npos) << message;
 }

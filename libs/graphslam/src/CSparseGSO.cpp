@@ -33,10 +33,11 @@ bool CSparseGSO::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObserv
 bool CSparseGSO::follow()
 {
 	const CSlamMap& map = m_parts->map;
+	const TRobustLoss loss = stereoLoss(m_parts->options.loss);
 	for (; m_revised_seen < map.revisedEdges().size(); m_revised_seen++) {
 		const int e = map.revisedEdges()[m_revised_seen];
 		if (static_cast<size_t>(e) >= m_pose_graph.edgeCount()) continue;
-		m_pose_graph.setEdge(e, toPoseEdge(map.edges()[static_cast<size_t>(e)], m_parts->options.loss));
+		m_pose_graph.setEdge(e, toPoseEdge(map.edges()[static_cast<size_t>(e)], loss));
 		m_changed_edges.push_back(e);
 	}
 	const bool stereo = appendToGraph(m_pose_graph, map, m_parts->options.loss, m_parts->options.priors);

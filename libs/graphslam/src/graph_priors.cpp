@@ -11,17 +11,24 @@ double varianceAmongMany(double sigma, double lasting, double time, double inter
 	return sigma * sigma - lasting * lasting + lasting * lasting * together;
 }
 
-TPoseEdge toPoseEdge(const TSlamEdge& edge, const TGraphLossOptions& loss)
+TRobustLoss stereoLoss(const TGraphLossOptions& options)
+{
+	if (options.loss == "none") return {};
+	TRobustLoss loss{options.loss == "huber" ? ERobustLoss::Huber : ERobustLoss::Cauchy, options.scale};
+	loss.weight = honestFactor(loss, 6);
+	return loss;
+}
+
+TPoseEdge toPoseEdge(const TSlamEdge& edge, const TRobustLoss& loss)
 {
 	TPoseEdge e;
 	e.from = edge.from;
 	e.to = edge.to;
 	e.T_from_to = edge.T_from_to;
 	e.information = (0.5 * edge.share) * (edge.information + edge.information.transpose());
-	if (edge.kind == EEdgeKind::ODOMETRY || loss.loss == "none") return e;
+	if (edge.kind == EEdgeKind::ODOMETRY) return e;
 	// An edge is an outlier by its own information: share * rho(s) of the unshared s.
-	e.loss = {loss.loss == "huber" ? ERobustLoss::Huber : ERobustLoss::Cauchy, loss.scale};
-	e.loss.weight = honestFactor(e.loss, 6);
+	e.loss = loss;
 	e.loss.scale *= std::sqrt(edge.share);
 	return e;
 }
@@ -95,8 +102,9 @@ bool appendToGraph(
 		else if (priors.root)
 			addRootPrior(graph, map);
 	}
+	const TRobustLoss stereo_loss = stereoLoss(loss);
 	for (size_t e = graph.edgeCount(); e < map.edges().size(); e++) {
-		graph.addEdge(toPoseEdge(map.edges()[e], loss));
+		graph.addEdge(toPoseEdge(map.edges()[e], stereo_loss));
 		stereo = stereo || map.edges()[e].kind != EEdgeKind::ODOMETRY;
 	}
 	return stereo;

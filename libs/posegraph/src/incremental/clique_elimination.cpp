@@ -78,16 +78,9 @@ int CBayesTree::eliminateClique(TClique& clique, CFactorSource& factors)
 	mapChildRows(clique);
 	clique.panel.resize(frontSize(m, p, m_kernels->width));
 	std::fill_n(clique.panel.data(), clique.panel.size(), 0.0);
-	const TFront front{clique.panel.data(), nullptr, m, p, m_kernels->width};
 	sumFactors(clique, true);
-	for (const int c : clique.children) {
-		const TClique& child = m_cliques[c];
-		if (child.rows_ascend)
-			m_kernels->addToPanel(child.rest.data(), child.left(), child.rows.data(), front.panel, m, p);
-		else
-			addPermuted(child.rest.data(), child.left(), child.rows.data(), front, true);
-	}
-	const int failed = m_kernels->factorize(front.panel, m, p);
+	sumChildren(clique, true);
+	const int failed = m_kernels->factorize(clique.panel.data(), m, p);
 	if (failed >= 0) return clique.pivots[failed];
 	sumRest(clique);
 	return -1;
@@ -109,18 +102,26 @@ void CBayesTree::takeFactors(TClique& clique, const CFactorSource& factors)
 /** What the clique, whose panel is eliminated, leaves to its parent. */
 void CBayesTree::sumRest(TClique& clique)
 {
-	const int m = clique.size(), p = int(clique.pivots.size()), width = m_kernels->width;
-	clique.rest.resize(frontSize(m - p, m - p, width));
+	const int m = clique.size(), p = int(clique.pivots.size());
+	clique.rest.resize(frontSize(m - p, m - p, m_kernels->width));
 	clique.has_rest = true;
-	const TFront front{clique.panel.data(), clique.rest.data(), m, p, width};
-	m_kernels->update(front.panel, m, p, front.rest);
+	m_kernels->update(clique.panel.data(), m, p, clique.rest.data());
 	sumFactors(clique, false);
+	sumChildren(clique, false);
+}
+
+/** What the children leave, into the panel or into the rest. */
+void CBayesTree::sumChildren(TClique& clique, bool panel)
+{
+	const int m = clique.size(), p = int(clique.pivots.size());
+	const TFront front{clique.panel.data(), clique.rest.data(), m, p, m_kernels->width};
+	const auto add = panel ? m_kernels->addToPanel : m_kernels->addToRest;
 	for (const int c : clique.children) {
 		const TClique& child = m_cliques[c];
 		if (child.rows_ascend)
-			m_kernels->addToRest(child.rest.data(), child.left(), child.rows.data(), front.rest, m, p);
+			add(child.rest.data(), child.left(), child.rows.data(), panel ? front.panel : front.rest, m, p);
 		else
-			addPermuted(child.rest.data(), child.left(), child.rows.data(), front, false);
+			addPermuted(child.rest.data(), child.left(), child.rows.data(), front, panel);
 	}
 }
 

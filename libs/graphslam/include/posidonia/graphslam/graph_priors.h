@@ -13,8 +13,11 @@ namespace posidonia
 bool appendToGraph(
 	CPoseGraph& graph, const CSlamMap& map, const TGraphLossOptions& loss, const TPriorOptions& priors);
 
-/** An edge of the map, as the graph sees it. */
-TPoseEdge toPoseEdge(const TSlamEdge& edge, const TGraphLossOptions& loss);
+/** Loss of a stereo edge that shares nothing, with its honestFactor(). */
+TRobustLoss stereoLoss(const TGraphLossOptions& options);
+
+/** An edge of the map, as the graph sees it. @param loss stereoLoss() */
+TPoseEdge toPoseEdge(const TSlamEdge& edge, const TRobustLoss& loss);
 
 /** Variance of one of many readings, `interval` seconds apart, whose errors are white but for a part with
  * standard deviation `lasting` and correlation time `time`: as if that part, too, were white, with the same

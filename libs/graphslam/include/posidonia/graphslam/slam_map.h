@@ -125,7 +125,6 @@ class CSlamMap
 	size_t m_edges_shared{0};		  // edges that shareInformation() has seen
 };
 
-/** loops.csv of the candidates: from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw,weight.
- */
+/** loops.csv of the candidates: from,to,kind,status,matches,inliers,rmse_px,tx,ty,tz,qx,qy,qz,qw,weight. */
 std::string candidatesCsv(const std::vector<TCandidateRow>& rows);
 }  // namespace posidonia

@@ -32,8 +32,8 @@ class CStereoSlam
 
 	void add(const mrpt::obs::CObservation::Ptr& observation);
 
-	/** Call after the last observation: the nodes' poses become the graph's optimum, which they may be away
-	 * from by some millimetres until then (robust weights are refreshed where the graph changes). */
+	/** Call after the last observation: the nodes' poses become the graph's optimum, which they are within
+	 * a millimetre of until then; loops.csv gets the edges' weights there. */
 	void makeExact();
 
 	/** Map and odometry now; T_map_body = T_map_odom T_odom_body with T_map_odom from the last node. */

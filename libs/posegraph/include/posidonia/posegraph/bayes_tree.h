@@ -119,6 +119,7 @@ class CBayesTree : public CCliqueFactor
 	int eliminateClique(TClique& clique, CFactorSource& factors);
 	void takeFactors(TClique& clique, const CFactorSource& factors);
 	void sumFactors(TClique& clique, bool panel);
+	void sumChildren(TClique& clique, bool panel);
 	void sumRest(TClique& clique);
 	void recoverRests(const std::vector<int>& orphans, const CFactorSource& factors);
 	void mapChildRows(TClique& clique);

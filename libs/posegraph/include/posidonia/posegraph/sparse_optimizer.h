@@ -28,8 +28,7 @@ struct TOptimizerOptions
 		v.number(
 			"min_relative_decrease", min_relative_decrease, atLeast(0),
 			"Converged when a step lowers the cost, is predicted to, or those after it will, by less than "
-			"this part "
-			"of it [-]");
+			"this part of it [-]");
 		v.number("min_step", min_step, atLeast(0), "Converged when no coordinate moves more [m, rad]");
 		v.number(
 			"min_gradient", min_gradient, atLeast(0),
