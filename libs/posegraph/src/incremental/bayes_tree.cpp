@@ -97,19 +97,9 @@ int CBayesTree::eliminate(
 	const TTop& top, const std::vector<int>& order, const std::vector<double>& late, CFactorSource& factors)
 {
 	m_version++;
-	for (const int node : order)
-		if (node >= int(m_clique_of.size())) {
-			m_clique_of.resize(size_t(node) + 1, -1);
-			m_rank.resize(size_t(node) + 1, -1);
-			m_local.resize(size_t(node) + 1, -1);
-		}
+	const TEliminationForest forest = forestOf(top, order, late, factors);
 	recoverRests(top.orphans, factors);
-	// Positions of the top's nodes in the new order stand in for them while the forest is made.
-	for (size_t k = 0; k < order.size(); k++)
-		m_local[order[k]] = int(k);
-	constexpr int kMaxPivots = 16;	// a touched pivot takes those of its clique with it
-	m_fresh =
-		newCliques(eliminationForest(int(order.size()), setsOf(top, factors), {late, kMaxPivots}), order);
+	m_fresh = newCliques(forest, order);
 	for (const int factor : top.factors)
 		placeFactor(factor, factors.nodesOf(factor));
 	m_adopted = top.orphans;
@@ -123,6 +113,32 @@ int CBayesTree::eliminate(
 	}
 	dropOldRests();
 	return -1;
+}
+
+double CBayesTree::workOf(const TTop& top, const std::vector<int>& order, const CFactorSource& factors)
+{
+	double work = 0;
+	for (const auto& clique : forestOf(top, order, {}, factors).cliques)
+		work += eliminationWork(clique.pivots, clique.left());
+	return work;
+}
+
+/** Of positions in the order, which stand in for the top's nodes. */
+TEliminationForest CBayesTree::forestOf(
+	const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
+	const CFactorSource& factors)
+{
+	for (size_t k = 0; k < order.size(); k++) {
+		const size_t node = size_t(order[k]);
+		if (node >= m_clique_of.size()) {
+			m_clique_of.resize(node + 1, -1);
+			m_rank.resize(node + 1, -1);
+			m_local.resize(node + 1, -1);
+		}
+		m_local[node] = int(k);
+	}
+	constexpr int kMaxPivots = 16;	// a touched pivot takes those of its clique with it
+	return eliminationForest(int(order.size()), setsOf(top, factors), {late, kMaxPivots});
 }
 
 /** What is coupled by a factor, and what by a subtree; members as in m_local. */

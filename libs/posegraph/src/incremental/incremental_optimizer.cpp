@@ -117,8 +117,8 @@ int CIncrementalOptimizer::eliminate(const CPoseGraph& graph, TIncrementalResult
 	m_new_nodes.clear();
 	m_new_factors.clear();
 	result.eliminated += int(top.nodes.size());
-	const std::vector<int> order = orderOf(top);
 	CWeightedFactors factors(*this, graph);
+	const std::vector<int> order = orderOf(top, factors);
 	return m_tree.eliminate(top, order, nearness(order), factors);
 }
 

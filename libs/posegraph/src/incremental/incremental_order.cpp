@@ -8,6 +8,18 @@
 
 namespace posidonia
 {
+namespace
+{
+/** The rings with the two innermost groups kept apart, all others one. */
+std::vector<int> innermostOf(std::vector<int> rings)
+{
+	const int innermost = *std::max_element(rings.begin(), rings.end()) - 1;
+	for (int& ring : rings)
+		ring = std::max(0, ring - innermost + 1);
+	return rings;
+}
+}  // namespace
+
 /** The newest pose and the way that it came. */
 CIncrementalOptimizer::TOutlook CIncrementalOptimizer::outlook() const
 {
@@ -71,13 +83,34 @@ void CIncrementalOptimizer::touchAhead()
 		m_is_seen[node] = 0;
 }
 
-/** Minimum degree from ring to ring, the outermost first. */
-std::vector<int> CIncrementalOptimizer::orderOf(const CBayesTree::TTop& top)
+/** Minimum degree from ring to ring, the outermost first. Rings serve the next updates; where they cost this
+ * one much more than it would without the outer ones, there are only the innermost and the rest. */
+std::vector<int> CIncrementalOptimizer::orderOf(const CBayesTree::TTop& top, const CFactorSource& factors)
 {
-	const int n = int(top.nodes.size());
+	constexpr int kMany = 8;  // innermost rings: smaller tops are cheap in any order
+	constexpr double kMuchMore = 1.25;
+	findPairs(top);
+	const auto ordered = [&](const std::vector<int>& rings) {
+		std::vector<int> order = constrainedMinimumDegreeOrder(int(rings.size()), m_pairs, rings);
+		for (int& k : order)
+			k = top.nodes[k];
+		return order;
+	};
+	const std::vector<int> rings = ringsOf(top.nodes);
+	std::vector<int> order = ordered(rings);
+	if (int(order.size()) < kMany * m_options.inner_ring) return order;
+	std::vector<int> freer = ordered(innermostOf(rings));
+	const bool much_more =
+		m_tree.workOf(top, order, factors) > kMuchMore * m_tree.workOf(top, freer, factors);
+	return much_more ? freer : order;
+}
+
+/** Places in the top of nodes that are coupled. */
+void CIncrementalOptimizer::findPairs(const CBayesTree::TTop& top)
+{
 	m_local.resize(m_d.size());
-	for (int k = 0; k < n; k++)
-		m_local[top.nodes[k]] = k;
+	for (size_t k = 0; k < top.nodes.size(); k++)
+		m_local[top.nodes[k]] = int(k);
 	m_pairs.clear();
 	const auto couple = [&](const int* nodes, int count) {
 		for (int a = 0; a < count; a++)
@@ -88,10 +121,6 @@ std::vector<int> CIncrementalOptimizer::orderOf(const CBayesTree::TTop& top)
 		couple(m_factor_nodes[factor].node, m_factor_nodes[factor].count);
 	for (const int orphan : top.orphans)
 		couple(m_tree.separatorOf(orphan).data(), int(m_tree.separatorOf(orphan).size()));
-	std::vector<int> order = constrainedMinimumDegreeOrder(n, m_pairs, ringsOf(top.nodes));
-	for (int& k : order)
-		k = top.nodes[k];
-	return order;
 }
 
 /** Rings round the newest pose, the innermost with the highest number, each kRingGrowth times as large as the

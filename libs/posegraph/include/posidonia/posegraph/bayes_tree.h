@@ -62,6 +62,9 @@ class CBayesTree : public CCliqueFactor
 		const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
 		CFactorSource& factors);
 
+	/** Multiply-adds of that elimination. */
+	double workOf(const TTop& top, const std::vector<int>& order, const CFactorSource& factors);
+
 	/** How much of the solution below what is fresh a call looks at. */
 	struct TSolveEffort
 	{
@@ -115,6 +118,9 @@ class CBayesTree : public CCliqueFactor
 	std::vector<int> newCliques(const TEliminationForest& forest, const std::vector<int>& order);
 	void adoptOrphan(int orphan);
 	void placeFactor(int factor, const TFactorNodes& nodes);
+	TEliminationForest forestOf(
+		const TTop& top, const std::vector<int>& order, const std::vector<double>& late,
+		const CFactorSource& factors);
 	TVariableSets setsOf(const TTop& top, const CFactorSource& factors);
 	int eliminateClique(TClique& clique, CFactorSource& factors);
 	void takeFactors(TClique& clique, const CFactorSource& factors);

@@ -107,7 +107,8 @@ class CIncrementalOptimizer
 	double nearness(int node) const;
 	std::vector<double> nearness(const std::vector<int>& nodes) const;
 	void touchAhead();
-	std::vector<int> orderOf(const CBayesTree::TTop& top);
+	std::vector<int> orderOf(const CBayesTree::TTop& top, const CFactorSource& factors);
+	void findPairs(const CBayesTree::TTop& top);
 	std::vector<int> ringsOf(const std::vector<int>& nodes) const;
 	const TRobustLoss& lossOf(const CPoseGraph& graph, int factor) const;
 	double weightOf(const CPoseGraph& graph, int factor) const;
