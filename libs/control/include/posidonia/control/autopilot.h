@@ -1,14 +1,15 @@
 #pragma once
 
 #include <posidonia/control/allocation.h>
-#include <posidonia/control/guidance.h>
+#include <posidonia/control/current_observer.h>
 #include <posidonia/control/mission.h>
+#include <posidonia/control/mission_runner.h>
 #include <posidonia/control/navigation_state.h>
 #include <posidonia/control/pose_controller.h>
 #include <posidonia/control/safety_supervisor.h>
 #include <posidonia/control/velocity_controller.h>
+#include <posidonia/control/velocity_requests.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace posidonia
 struct TAutopilotOptions
 {
 	TGuidanceOptions guidance;
+	TCurrentObserverOptions current_observer;
 	TPoseControlOptions pose_control;
 	TVelocityControlOptions velocity_control;
 	TAllocationOptions allocation;
@@ -28,6 +30,7 @@ struct TAutopilotOptions
 	void forEachSection(F&& f)
 	{
 		f("Guidance", guidance);
+		f("CurrentObserver", current_observer);
 		f("PoseControl", pose_control);
 		f("VelocityControl", velocity_control);
 		f("Allocation", allocation);
@@ -35,35 +38,19 @@ struct TAutopilotOptions
 	}
 };
 
-enum class EMissionEvent
-{
-	STEP_STARTED,
-	STEP_REACHED,
-	STEP_TIMED_OUT,
-	MISSION_DONE,
-	MISSION_ABORTED,
-	SAFETY_LEVEL
-};
-std::string toString(EMissionEvent kind);
-
-struct TMissionEvent
-{
-	double stamp{0};  ///< [s]
-	EMissionEvent kind{EMissionEvent::STEP_STARTED};
-	std::string text;
-};
-
 struct TAutopilotOutput
 {
 	double stamp{0};
 	/** Of the thrusters, in [-1, 1]. */
-	double starboard{0}, port{0}, heave{0};
+	TThrusters set_points;
 	/** What the mission asks for, before saturation and slew limits, and after them. */
 	TVelocityCommand unlimited, limited;
 	/** Forces asked for and given by the thrusters, body axes. */
 	TWrench wanted, achieved;
 	/** What guidance steers to now. */
 	double heading_reference{0}, depth_reference{0};
+	/** Observed current, north east [m/s]. */
+	Eigen::Vector2d current{0, 0};
 	/** Step that is being done; index into the mission's steps, size() when done. */
 	size_t step{0};
 	TLegProgress leg;
@@ -79,18 +66,39 @@ struct TAutopilotOutput
 class CAutopilot
 {
    public:
-	/** Throws CError for options that do not fit together. The mission should have passed checkMission(). */
+	/** The mission should have passed checkMission(). */
 	CAutopilot(const TAutopilotOptions& options, const TMission& mission);
-	~CAutopilot();
 
 	/** One step at health.stamp. `navigation` is the last one known, fresh or not. The mission starts at the
 	 * first call with valid navigation. */
 	TAutopilotOutput step(const TNavigationState& navigation, const TVehicleHealth& health);
 
-	const TMission& mission() const;
+	const TMission& mission() const { return m_runner.mission(); }
 
    private:
-	class CImpl;
-	std::unique_ptr<CImpl> m_impl;
+	void supervise(const TNavigationState& navigation, const TVehicleHealth& health, TAutopilotOutput& out);
+	/** By priority: the mission, what replaces it after an abort, the climb from the floor. */
+	void request(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
+	void requestMission(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
+	void requestAbort(double dt, TAutopilotOutput& out);
+	void control(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
+	void observeCurrent(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
+	void surfaceBlindly(double now, TAutopilotOutput& out);
+	/** Nothing is known for a moment: the thrusters stop. */
+	void pause();
+	bool finished(const TNavigationState& navigation, bool fresh) const;
+
+	TAutopilotOptions m_options;
+	CMissionRunner m_runner;
+	CCurrentObserver m_observer;
+	CPoseController m_pose;
+	CVelocityController m_velocity;
+	CThrusterAllocation m_allocation;
+	CSafetySupervisor m_supervisor;
+	CVelocityRequests m_requests;
+	TSafetyDecision m_decision;
+	TVelocityCommand m_acceleration;  ///< Of the mission's references, fed forward
+	double m_stamp{-1};				  ///< Of the last step, negative before [s]
+	double m_emergency_since{-1};	  ///< [s]
 };
 }  // namespace posidonia

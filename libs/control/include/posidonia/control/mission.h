@@ -33,8 +33,9 @@ struct TStep
 	bool altitude_mode{false};					  ///< Keeps `altitude` over the floor instead of `depth`
 	double depth{0}, altitude{0};				  ///< [m]
 	double speed{0.3};							  ///< Over ground along the line [m/s]
+	double vertical_speed{0.2};					  ///< Of the depth reference [m/s]
 	double tolerance_xy{0.15}, tolerance_z{0.1};  ///< [m]
-	double timeout{60};							  ///< [s]; the next step starts when it has passed
+	double timeout{0};							  ///< [s]; 0: defaultTimeout() when the step starts
 	double duration{0};							  ///< HOLD [s]
 
 	bool isLeg() const { return kind == EStepKind::GOTO || kind == EStepKind::SECTION; }
@@ -43,7 +44,7 @@ struct TStep
 /** Section [Mission]: defaults of all steps, and limits. */
 struct TMissionOptions
 {
-	double speed{0.3}, tolerance_xy{0.15}, tolerance_z{0.1};
+	double speed{0.3}, vertical_speed{0.2}, tolerance_xy{0.15}, tolerance_z{0.1};
 	double timeout{3600}, max_distance{300};
 	std::string on_timeout{"next"};
 
@@ -51,6 +52,7 @@ struct TMissionOptions
 	void visit(VISITOR& v)
 	{
 		v.number("speed", speed, above(0), "Speed over ground of steps that give none [m/s] (paper: 0.3)");
+		v.number("vertical_speed", vertical_speed, above(0), "Vertical speed of steps that give none [m/s]");
 		v.number(
 			"tolerance_xy", tolerance_xy, above(0), "A point is reached within this horizontal distance [m]");
 		v.number("tolerance_z", tolerance_z, above(0), "... and within this vertical distance [m]");
@@ -66,16 +68,22 @@ struct TMissionOptions
 
 struct TMission
 {
+	std::string file;  ///< Where it was read, for errors
 	TMissionOptions options;
 	std::vector<TStep> steps;
 };
+
+/** Time-out of a step over `distance` and `climb` [m]: 2 max(sqrt2 d / u, dz / min(0.3, w)) + 30 s (COLA2
+ * G2). */
+double defaultTimeout(const TStep& step, double distance, double climb);
 
 /** North east [m] in map of latitude and longitude [deg]. */
 using TDatumConverter = std::function<Eigen::Vector2d(double latitude, double longitude)>;
 
 /** Reads [Mission], [Step.1], [Step.2] ... of `ini` (which may hold other sections too; the caller calls
- * refuseUnknown()). Routes and lawn-mowers become sections. Depth mode is inherited from the step before.
- * Throws CError naming file, section and key. */
+ * refuseUnknown()). Kinds: goto, section, route, lawn-mower, dive, hold, surface (README.md lists their
+ * keys). Routes and lawn-mowers become sections. A step without depth or altitude keeps that of the step
+ * before. Throws CError naming file, section and key. */
 TMission loadMission(CIniFile& ini, const TDatumConverter& fromGeodetic);
 
 /** Before the start: steps there are, all points inside the cage, no set-point below max_depth or under

@@ -2,6 +2,8 @@
 
 #include <posidonia/base/options.h>
 #include <posidonia/control/commands.h>
+#include <posidonia/control/guidance_command.h>
+#include <posidonia/control/navigation_state.h>
 
 namespace posidonia
 {
@@ -25,5 +27,25 @@ struct TPoseControlOptions
 		v.number("max_heave", max_heave, above(0), "Limit of the commanded heave [m/s]");
 		v.number("max_heave_acceleration", max_heave_acceleration, above(0), "... and of its change [m/s^2]");
 	}
+};
+
+/** From pose errors to velocities: proportional, with the references' rates fed forward. The pitch is
+ * passive, so part of the surge goes up or down and heave makes up for it: dz/dt = -u sin(pitch) + w
+ * cos(pitch). */
+class CPoseController
+{
+   public:
+	explicit CPoseController(const TPoseControlOptions& options) : m_options(options) {}
+
+	/** Before any limit. */
+	TVelocityCommand command(const TGuidanceCommand& guidance, const TNavigationState& navigation) const;
+	/** Saturated, and its change since the last call bounded; `dt` [s]. */
+	TVelocityCommand limited(const TVelocityCommand& wanted, double dt);
+	/** The next limited() starts from here. */
+	void reset(const TVelocityCommand& now) { m_last = now; }
+
+   private:
+	TPoseControlOptions m_options;
+	TVelocityCommand m_last;
 };
 }  // namespace posidonia

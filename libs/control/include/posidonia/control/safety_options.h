@@ -11,8 +11,8 @@ struct TSafetyOptions
 {
 	double max_depth{20}, depth_margin{2}, min_altitude{1.0};
 	std::vector<double> cage;
-	double navigation_timeout{2}, depth_timeout{10}, imu_timeout{10}, dvl_timeout{10}, good_dvl_timeout{20},
-		altitude_timeout{60}, position_timeout{30};
+	double navigation_pause{1}, navigation_timeout{2}, depth_timeout{10}, imu_timeout{10}, dvl_timeout{10},
+		good_dvl_timeout{20}, altitude_timeout{60}, position_timeout{30};
 	double min_battery{0.15};
 	double climb_speed{0.5}, ascent_speed{0.3};
 	double settle_time{5};
@@ -30,6 +30,9 @@ struct TSafetyOptions
 		v.numbers(
 			"cage", cage, 0, anyNumber(),
 			"Virtual cage: min north, min east, max north, max east [m]; outside: abort. Empty: none");
+		v.number(
+			"navigation_pause", navigation_pause, above(0),
+			"No valid navigation for this long: the thrusters stop [s] (COLA2: 1)");
 		v.number(
 			"navigation_timeout", navigation_timeout, above(0),
 			"No valid navigation for this long: emergency [s] (COLA2: 2)");

@@ -40,6 +40,9 @@ struct TSafetyRule
 	bool (*holds)(const TSafetyInput&, const TSafetyOptions&);
 };
 
+/** Is there a pose that may be used? */
+bool isFresh(const TNavigationState& navigation, const TVehicleHealth& health, const TSafetyOptions& limits);
+
 /** The rule table (COLA2's safe_depth_altitude, virtual cage and supervisor rules; libs/control/README.md).
  */
 const std::vector<TSafetyRule>& safetyRules();
