@@ -1,0 +1,54 @@
+#pragma once
+
+#include <posidonia/control/guidance_command.h>
+#include <posidonia/control/leg_progress.h>
+#include <posidonia/control/line_of_sight.h>
+#include <posidonia/control/navigation_state.h>
+#include <posidonia/control/station_keeping.h>
+
+namespace posidonia
+{
+/** A straight leg: turn on the spot, run along the line, and approach the point if its line was crossed too
+ * far off. */
+class CLegGuidance
+{
+   public:
+	explicit CLegGuidance(const TGuidanceOptions& options)
+		: m_options(options), m_los(options), m_station(options)
+	{
+	}
+
+	/** From `start` to `end` [m]; `heading`: the heading reference now [rad]. */
+	void begin(
+		const Eigen::Vector2d& start, const Eigen::Vector2d& end, double speed,
+		const TNavigationState& navigation, const Eigen::Vector2d& current, double heading);
+
+	/** Heading reference and wished surge (not yet ramped); `dt` [s]. */
+	TReference update(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
+	double surge() const { return m_surge; }
+	const TLegProgress& progress() const { return m_progress; }
+
+   private:
+	void locate(const Eigen::Vector2d& position);
+	/** Velocity over ground that the line of sight wishes, map [m/s]. */
+	Eigen::Vector2d wish(double course_offset) const;
+	/** Speed that still stops at the end of the leg [m/s]. */
+	double speed() const;
+	TReference turn(const TNavigationState& navigation);
+	TReference run(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
+	TReference approach(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
+	/** Bow for a wish, the crab angle bounded [rad]. */
+	double crabbed(const Eigen::Vector2d& wish, const Eigen::Vector2d& current) const;
+
+	TGuidanceOptions m_options;
+	CLineOfSight m_los;
+	CStationKeeping m_station;
+	CTurnProfile m_turn;
+	TLegProgress m_progress;
+	double m_length{0}, m_course{0}, m_speed{0};  ///< [m], [rad], [m/s]
+	double m_begun{0};							  ///< [s]
+	double m_heading{0};						  ///< Reference [rad], not wrapped
+	double m_blend{0};							  ///< Of the heading reference [rad]
+	double m_surge{0};							  ///< [m/s]
+};
+}  // namespace posidonia
