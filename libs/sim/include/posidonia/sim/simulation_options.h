@@ -3,6 +3,7 @@
 #include <posidonia/obs/geodesy.h>
 #include <posidonia/sim/renderer.h>
 #include <posidonia/sim/sensor_models.h>
+#include <posidonia/sim/vehicle_dynamics.h>
 
 namespace posidonia
 {
@@ -52,6 +53,9 @@ struct TSimulationOptions
 	TSimulatedPressureOptions pressure;
 	TSimulatedGpsOptions gps;
 	TCalibrationErrorOptions calibration_error;
+	TVehicleOptions vehicle;
+	TThrusterOptions thrusters;
+	TCurrentOptions current;
 
 	/** f(section name, options struct) for each section. */
 	template <class F>
@@ -70,6 +74,9 @@ struct TSimulationOptions
 		f("SimulatedPressure", pressure);
 		f("SimulatedGps", gps);
 		f("CalibrationError", calibration_error);
+		f("Vehicle", vehicle);
+		f("Thrusters", thrusters);
+		f("Current", current);
 	}
 };
 }  // namespace posidonia
