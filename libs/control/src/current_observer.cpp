@@ -33,6 +33,8 @@ Vector2d CCurrentObserver::current() const
 {
 	const double speed = m_current.norm();
 	if (!m_options.enabled || speed <= m_options.dead_zone) return Vector2d::Zero();
-	return m_current * (1 - m_options.dead_zone / speed);
+	// Continuous at the dead zone's edge, and nearly the whole estimate soon beyond it.
+	const double part = m_options.dead_zone / speed;
+	return m_current * (1 - part * part);
 }
 }  // namespace posidonia

@@ -25,7 +25,7 @@ void CLegGuidance::begin(
 	locate(navigation.horizontal());
 	m_heading = heading;
 	m_blend = 0;
-	const double bow = crabbed(wish(m_los.course(m_progress.cross)), current);
+	const double bow = m_course + crabbed(m_los.course(m_progress.cross), current);
 	m_turn =
 		CTurnProfile(heading, wrapAngle(bow - heading), m_options.turn_rate, m_options.turn_acceleration);
 }
@@ -44,17 +44,30 @@ double CLegGuidance::speed() const
 	return std::max(kLowestSpeed, std::min(m_speed, std::sqrt(2 * m_options.deceleration * left)));
 }
 
-Vector2d CLegGuidance::wish(double course_offset) const
+Vector2d CLegGuidance::along(double course_offset, double speed) const
 {
 	const double course = m_course + course_offset;
-	return speed() * Vector2d(std::cos(course), std::sin(course));
+	return speed * Vector2d(std::cos(course), std::sin(course));
 }
 
-double CLegGuidance::crabbed(const Vector2d& wish, const Vector2d& current) const
+double CLegGuidance::crabbed(double course_offset, const Vector2d& current) const
 {
-	const double course = std::atan2(wish.y(), wish.x());
+	const Vector2d wish = along(course_offset, m_speed);
+	const double course = m_course + course_offset;
 	const double crab = wrapAngle(steer(wish, current, course).heading - course);
-	return course + std::clamp(crab, -m_options.max_crab, m_options.max_crab);
+	return course_offset + std::clamp(crab, -m_options.max_crab, m_options.max_crab);
+}
+
+double CLegGuidance::rateWeight(double now) const
+{
+	const double slowing = speed() / m_speed;
+	return (1 - std::exp(-(now - m_running_since) / m_options.blend_time)) * slowing * slowing;
+}
+
+double CLegGuidance::crossRate(const TNavigationState& navigation) const
+{
+	const Eigen::Vector3d v_map = navigation.T_map_body.linear() * navigation.v_body;
+	return std::cos(m_course) * v_map.y() - std::sin(m_course) * v_map.x();
 }
 
 TReference CLegGuidance::update(const TNavigationState& navigation, const Vector2d& current, double dt)
@@ -66,7 +79,8 @@ TReference CLegGuidance::update(const TNavigationState& navigation, const Vector
 		std::abs(error) < m_options.turn_tolerance)
 	{
 		m_progress.phase = ELegPhase::RUN;
-		m_blend = wrapAngle(m_heading - crabbed(wish(m_los.course(m_progress.cross)), current));
+		m_running_since = navigation.stamp;
+		m_blend = wrapAngle(m_heading - m_course - crabbed(m_los.course(m_progress.cross), current));
 	}
 	if (m_progress.phase == ELegPhase::RUN && m_progress.along >= m_length)
 		m_progress.phase = ELegPhase::APPROACH;
@@ -93,11 +107,12 @@ TReference CLegGuidance::turn(const TNavigationState& navigation)
 TReference CLegGuidance::run(const TNavigationState& navigation, const Vector2d& current, double dt)
 {
 	m_blend *= std::exp(-dt / m_options.blend_time);
-	const Vector2d wished = wish(m_los.update(m_progress.cross, dt));
-	m_heading += wrapAngle(crabbed(wished, current) + m_blend - m_heading);
+	const double offset = m_los.update(m_progress.cross, dt);
+	m_heading += wrapAngle(m_course + crabbed(offset, current) + m_blend - m_heading);
 	const double error = wrapAngle(m_heading - navigation.heading());
-	m_surge = steer(wished, current, navigation.heading()).surge * alignment(error);
-	return {m_heading, 0, 0};
+	m_surge = steer(along(offset, speed()), current, navigation.heading()).surge * alignment(error);
+	const double rate = m_los.courseRate(m_progress.cross, crossRate(navigation));
+	return {m_heading, rate * rateWeight(navigation.stamp), 0};
 }
 
 TReference CLegGuidance::approach(const TNavigationState& navigation, const Vector2d& current, double dt)

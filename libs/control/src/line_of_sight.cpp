@@ -10,6 +10,13 @@ double CLineOfSight::course(double cross) const
 	return -std::atan2(cross + m_integral, m_options.look_ahead);
 }
 
+double CLineOfSight::courseRate(double cross, double cross_rate) const
+{
+	const double delta = m_options.look_ahead;
+	const double reached = cross + m_integral;
+	return -delta * cross_rate / (reached * reached + delta * delta);
+}
+
 double CLineOfSight::update(double cross, double dt)
 {
 	const double delta = m_options.look_ahead;

@@ -1,5 +1,6 @@
 #include <posidonia/control/velocity_controller.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace posidonia
@@ -22,10 +23,15 @@ CVelocityController::CVelocityController(const TVelocityControlOptions& options)
 {
 }
 
-double CVelocityController::feedForward(size_t axis, double acceleration, double velocity) const
+double CVelocityController::feedForward(size_t axis, double acceleration, double velocity, double dt)
 {
-	return m_options.inertia[axis] * acceleration +
-		   (m_options.linear_drag[axis] + m_options.quadratic_drag[axis] * std::abs(velocity)) * velocity;
+	const double drag =
+		(m_options.linear_drag[axis] + m_options.quadratic_drag[axis] * std::abs(velocity)) * velocity;
+	const double force = m_options.inertia[axis] * acceleration + drag;
+	double& filtered = m_filtered[axis];
+	const double change = (force - filtered) / m_options.lead_filter;
+	filtered += std::min(dt, m_options.lead_filter) * change;
+	return force + (m_options.thruster_lag[axis] - m_options.lead_filter) * change;
 }
 
 TWrench CVelocityController::update(
@@ -33,11 +39,11 @@ TWrench CVelocityController::update(
 	const TVelocityCommand& through_water, double dt)
 {
 	m_wanted.X = m_surge.update(command.surge, measured.surge, dt) +
-				 feedForward(0, acceleration.surge, through_water.surge);
+				 feedForward(0, acceleration.surge, through_water.surge, dt);
 	m_wanted.Z = m_heave.update(command.heave, measured.heave, dt) +
-				 feedForward(1, acceleration.heave, through_water.heave) + m_options.buoyancy;
+				 feedForward(1, acceleration.heave, through_water.heave, dt) + m_options.buoyancy;
 	m_wanted.N = m_yaw.update(command.yaw_rate, measured.yaw_rate, dt) +
-				 feedForward(2, acceleration.yaw_rate, through_water.yaw_rate);
+				 feedForward(2, acceleration.yaw_rate, through_water.yaw_rate, dt);
 	return m_wanted;
 }
 
@@ -53,5 +59,6 @@ void CVelocityController::reset()
 	m_surge.reset();
 	m_heave.reset();
 	m_yaw.reset();
+	m_filtered = {0, 0, 0};
 }
 }  // namespace posidonia

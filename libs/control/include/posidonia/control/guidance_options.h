@@ -9,12 +9,12 @@ namespace posidonia
 /** Section [Guidance]. */
 struct TGuidanceOptions
 {
-	double look_ahead{1.2}, integral_gain{0.1}, integral_limit{1.5};
+	double look_ahead{1.2}, integral_gain{0.04}, integral_limit{1.5};
 	double max_crab{60 * M_PI / 180};
 	double acceleration{0.08}, deceleration{0.05};
 	double turn_rate{20 * M_PI / 180}, turn_acceleration{0.12}, turn_tolerance{4 * M_PI / 180},
 		blend_time{1.5};
-	double station_gain{0.25}, station_speed{0.15}, station_radius{0.06}, station_turn_rate{0.15};
+	double station_gain{0.25}, station_speed{0.15}, station_radius{0.06}, station_turn_rate{0.3};
 	double dive_acceleration{0.05}, lost_altitude{5};
 
 	template <class VISITOR>

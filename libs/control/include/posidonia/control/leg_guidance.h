@@ -30,15 +30,20 @@ class CLegGuidance
 
    private:
 	void locate(const Eigen::Vector2d& position);
-	/** Velocity over ground that the line of sight wishes, map [m/s]. */
-	Eigen::Vector2d wish(double course_offset) const;
+	/** Of the cross-track error, from the velocity: a correction of the pose is not in it [m/s]. */
+	double crossRate(const TNavigationState& navigation) const;
+	/** Velocity over ground [m/s] at an angle off the line, map. */
+	Eigen::Vector2d along(double course_offset, double speed) const;
 	/** Speed that still stops at the end of the leg [m/s]. */
 	double speed() const;
 	TReference turn(const TNavigationState& navigation);
 	TReference run(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
 	TReference approach(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
-	/** Bow for a wish, the crab angle bounded [rad]. */
-	double crabbed(const Eigen::Vector2d& wish, const Eigen::Vector2d& current) const;
+	/** Bow, off the line, for a course off the line: with the crab angle for the leg's full speed, so that it
+	 * does not swing up-current while the vehicle slows down [rad]. */
+	double crabbed(double course_offset, const Eigen::Vector2d& current) const;
+	/** The rate of the line of sight is fed forward while running at speed, with no step at the ends. */
+	double rateWeight(double now) const;
 
 	TGuidanceOptions m_options;
 	CLineOfSight m_los;
@@ -46,7 +51,7 @@ class CLegGuidance
 	CTurnProfile m_turn;
 	TLegProgress m_progress;
 	double m_length{0}, m_course{0}, m_speed{0};  ///< [m], [rad], [m/s]
-	double m_begun{0};							  ///< [s]
+	double m_begun{0}, m_running_since{0};		  ///< [s]
 	double m_heading{0};						  ///< Reference [rad], not wrapped
 	double m_blend{0};							  ///< Of the heading reference [rad]
 	double m_surge{0};							  ///< [m/s]

@@ -21,6 +21,8 @@ class CLineOfSight
 	double update(double cross, double dt);
 	/** The same with the integral as it is. */
 	double course(double cross) const;
+	/** Rate of course() [rad/s] while the error changes at `cross_rate` [m/s]. */
+	double courseRate(double cross, double cross_rate) const;
 	void reset() { m_integral = 0; }
 	/** sigma y [m]. */
 	double integral() const { return m_integral; }

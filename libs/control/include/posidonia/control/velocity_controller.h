@@ -4,6 +4,7 @@
 #include <posidonia/control/commands.h>
 #include <posidonia/control/pid.h>
 
+#include <array>
 #include <vector>
 
 namespace posidonia
@@ -19,6 +20,8 @@ struct TVelocityControlOptions
 	std::vector<double> linear_drag{10, 30, 5};
 	std::vector<double> quadratic_drag{36.4, 89, 15};
 	double buoyancy{0.98};
+	std::vector<double> thruster_lag{0.8, 0.4, 0.8};
+	double lead_filter{0.2};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
@@ -34,12 +37,17 @@ struct TVelocityControlOptions
 		v.numbers(
 			"quadratic_drag", quadratic_drag, 3, atLeast(0),
 			"Feed-forward [N s2/m2, N s2/m2, N m s2] (Toulon)");
+		v.numbers(
+			"thruster_lag", thruster_lag, 3, atLeast(0),
+			"Surge heave yaw: lag of the thrusters that the fed-forward force makes up for [s] (Toulon)");
+		v.number("lead_filter", lead_filter, above(0), "... through a filter of this time constant [s]");
 		v.number("buoyancy", buoyancy, anyNumber(), "Upward excess of buoyancy over weight [N] (0.1 kg)");
 	}
 };
 
 /** From velocities to forces: a PID an axis, with the force that the wanted motion takes fed forward:
- * m dv/dt + d_lin v + d_quad v |v|, v through the water. */
+ * m dv/dt + d_lin v + d_quad v |v|, v through the water, led by (1 + lag s) / (1 + filter s) for the
+ * thrusters' lag. */
 class CVelocityController
 {
    public:
@@ -55,10 +63,12 @@ class CVelocityController
 	void reset();
 
    private:
-	double feedForward(size_t axis, double acceleration, double velocity) const;
+	/** Force that a motion takes, led by the thrusters' lag. */
+	double feedForward(size_t axis, double acceleration, double velocity, double dt);
 
 	TVelocityControlOptions m_options;
 	CPid m_surge, m_heave, m_yaw;
+	std::array<double, 3> m_filtered{0, 0, 0};	///< Fed-forward forces after the lead's filter
 	TWrench m_wanted;
 };
 }  // namespace posidonia
