@@ -52,9 +52,13 @@ inline TSimulatedDvlOptions quietRanges()
 	o.sigma_altitude = 0;
 	return o;
 }
+inline std::shared_ptr<const CSeaFloor> flatFloor()
+{
+	return std::make_shared<CFlatSeaFloor>(kFloor);
+}
 inline CSimulatedDvl makeQuietDvl(const TCalibrationErrorOptions& errors = {})
 {
-	return {"DVL", quietDvl(), quietRanges(), errors, kFloor, 1};
+	return {"DVL", quietDvl(), quietRanges(), errors, flatFloor(), 1};
 }
 
 /** Mean and standard deviation. */

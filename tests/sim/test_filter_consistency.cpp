@@ -154,7 +154,7 @@ TEST(FilterConsistency, ScaleAndBeamsOfTheDvl)
 	const double r = spec.sigmaBeam() * spec.sigmaBeam();
 	double nis = 0, nees = 0, n = 0;
 	for (int seed = 1; seed <= kSeeds; seed++) {
-		CSimulatedDvl dvl("DVL", spec, options, {}, kFloor, seed);
+		CSimulatedDvl dvl("DVL", spec, options, {}, flatFloor(), seed);
 		double b = 0, P = spec.sigma_scale * spec.sigma_scale;
 		for (int i = 0; i < kReadings; i++) {
 			const auto o = dvl.measure(state, kStart + i / spec.rate);

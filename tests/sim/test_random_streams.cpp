@@ -107,7 +107,7 @@ TEST(RandomStream, OfTheDvl)
 	const TDvlSpec spec = TSensorSuite::sparus2().dvl.at("DVL");
 	TCalibrationErrorOptions errors;
 	errors.dvl_scale = 0.01;
-	CSimulatedDvl sensor("DVL", spec, {}, errors, kFloor, kSeed);
+	CSimulatedDvl sensor("DVL", spec, {}, errors, flatFloor(), kSeed);
 	CNoise noise(seedOf(kSeed, "DVL"));
 	const Isometry3d T_body_dvl = spec.T_body_sensor();
 	for (int i = 0; i < kReadings; i++) {

@@ -38,7 +38,7 @@ TEST(SimulatedDvl, VelocityIsThatOfTheInstrumentInItsOwnAxes)
 TEST(SimulatedDvl, BeamsHoldTheVelocityAndEndOnTheFloor)
 {
 	TDvlSpec spec = TSensorSuite::sparus2().dvl.at("DVL");
-	CSimulatedDvl sensor("DVL", spec, quietRanges(), {}, kFloor, 1);
+	CSimulatedDvl sensor("DVL", spec, quietRanges(), {}, flatFloor(), 1);
 	const Eigen::Matrix<double, 3, 4> beams = spec.beams();
 	for (double t = 20; t < 100; t += 3) {
 		const auto state = livelyMotion().at(t);
@@ -58,7 +58,7 @@ TEST(SimulatedDvl, NoiseHasTheStatedSigma)
 {
 	TDvlSpec spec;
 	spec.sigma_velocity = 0.02;
-	CSimulatedDvl sensor("DVL", spec, TSimulatedDvlOptions(), {}, kFloor, 11);
+	CSimulatedDvl sensor("DVL", spec, TSimulatedDvlOptions(), {}, flatFloor(), 11);
 	std::vector<double> x, z, altitude;
 	for (int i = 0; i < 3000; i++) {
 		const auto o = sensor.measure(TVehicleState(), i);
@@ -119,7 +119,7 @@ TDvlSpec noisyDvl()
 }
 CSimulatedDvl makeDvl(const TSimulatedDvlOptions& options, unsigned seed = 1)
 {
-	return {"DVL", noisyDvl(), options, {}, kFloor, seed};
+	return {"DVL", noisyDvl(), options, {}, flatFloor(), seed};
 }
 /** Binomial count within 4.5 sigma? */
 void expectCount(int count, int n, double p, const std::string& what)
@@ -151,7 +151,7 @@ TEST(SimulatedDvl, BeamsHaveIndependentNoiseOfOneSize)
 		for (const double angle : {0.35, M_PI / 6}) {
 			TDvlSpec spec = noisyDvl();
 			spec.beam_azimuth = azimuth, spec.beam_angle = angle;
-			CSimulatedDvl sensor("DVL", spec, {}, {}, kFloor, 3);
+			CSimulatedDvl sensor("DVL", spec, {}, {}, flatFloor(), 3);
 			const Vector4d truth = spec.beams().transpose() * trueVelocity(cruising(), spec);
 			Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 			const int n = 4000;
@@ -172,11 +172,11 @@ TEST(SimulatedDvl, DrawnScaleIsThatOfTheVelocity)
 	TSimulatedDvlOptions options = quietRanges();
 	TCalibrationErrorOptions errors;
 	errors.dvl_scale = 0.01;
-	EXPECT_EQ(CSimulatedDvl("DVL", quietDvl(), options, errors, kFloor, 1).scale(), 1.01) << "not drawn";
+	EXPECT_EQ(CSimulatedDvl("DVL", quietDvl(), options, errors, flatFloor(), 1).scale(), 1.01) << "not drawn";
 	options.random_scale = true;
 	std::vector<double> drawn;
 	for (unsigned seed = 1; seed <= 1000; seed++) {
-		CSimulatedDvl sensor("DVL", quietDvl(), options, errors, kFloor, seed);
+		CSimulatedDvl sensor("DVL", quietDvl(), options, errors, flatFloor(), seed);
 		const Vector3d measured = velocityOf(asDvl(sensor.measure(cruising(), kStart)));
 		EXPECT_LT((measured - sensor.scale() * trueVelocity(cruising(), quietDvl())).norm(), kTiny) << seed;
 		drawn.push_back(sensor.scale() - 1.01);

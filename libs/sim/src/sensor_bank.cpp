@@ -1,4 +1,5 @@
 #include <posidonia/base/error.h>
+#include <posidonia/sim/scene.h>
 #include <posidonia/sim/sensor_bank.h>
 
 #include <algorithm>
@@ -36,14 +37,20 @@ class CPairAnnouncer
 };
 }  // namespace
 
-CSensorBank::CSensorBank(const TSimulationOptions& o, const TSensorSuite& nominal)
+CSensorBank::CSensorBank(const TSimulationOptions& options, const TSensorSuite& nominal)
+	: CSensorBank(options, nominal, makeSeaFloor(options))
+{
+}
+
+CSensorBank::CSensorBank(
+	const TSimulationOptions& o, const TSensorSuite& nominal, const std::shared_ptr<const CSeaFloor>& floor)
 	: m_start_time(o.run.start_time)
 {
 	const uint64_t seed = o.run.seed;
 	const auto errors = drawnSigns(o.calibration_error, seed);
 	m_models.imu = add<CSimulatedImu>(o.run.imu, nominal.imu, o.imu, seed);
 	m_models.ahrs = add<CSimulatedAhrs>(o.run.ahrs, nominal.ahrs, o.ahrs, seed);
-	m_models.dvl = add<CSimulatedDvl>(o.run.dvl, nominal.dvl, o.dvl, errors, o.floor.depth, seed);
+	m_models.dvl = add<CSimulatedDvl>(o.run.dvl, nominal.dvl, o.dvl, errors, floor, seed);
 	m_models.pressure = add<CSimulatedPressure>(o.run.pressure, nominal.pressure, o.pressure, seed);
 	m_models.gps = add<CSimulatedGps>(o.run.gps, nominal.gps, o.gps, o.world, seed);
 	add<CPairAnnouncer>(o.run.stereo, nominal.stereo);

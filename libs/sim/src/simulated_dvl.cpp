@@ -21,13 +21,13 @@ double drawnScale(
 
 CSimulatedDvl::CSimulatedDvl(
 	const std::string& label, const TDvlSpec& nominal, const TSimulatedDvlOptions& options,
-	const TCalibrationErrorOptions& errors, double floor_depth, uint64_t seed)
+	const TCalibrationErrorOptions& errors, std::shared_ptr<const CSeaFloor> floor, uint64_t seed)
 	: m_label(label),
 	  m_nominal(nominal),
 	  m_options(options),
 	  m_T_body_dvl(trueDvlPose(nominal, errors)),
 	  m_scale(drawnScale(label, nominal, options, errors, seed)),
-	  m_floor_depth(floor_depth),
+	  m_floor(std::move(floor)),
 	  m_beams(nominal.beams()),
 	  m_noise(seedOf(seed, label)),
 	  m_outliers(seedOf(seed, label + " outliers")),
@@ -54,17 +54,17 @@ Vector3d CSimulatedDvl::trueVelocity(const TVehicleState& state) const
 
 double CSimulatedDvl::trueAltitude(const TVehicleState& state) const
 {
-	return m_floor_depth - (state.T_map_body * m_T_body_dvl.translation()).z();
+	const Vector3d head = state.T_map_body * m_T_body_dvl.translation();
+	return m_floor->depthAt(head.head<2>()) - head.z();
 }
 
 Vector4d CSimulatedDvl::trueRanges(const TVehicleState& state) const
 {
 	const Matrix3d R_map_dvl = state.T_map_body.linear() * m_T_body_dvl.linear();
+	const Vector3d head = state.T_map_body * m_T_body_dvl.translation();
 	Vector4d ranges;
-	for (int i = 0; i < 4; i++) {
-		const double slope = (R_map_dvl * m_beams.col(i)).z();
-		ranges[i] = slope > 0 ? trueAltitude(state) / slope : std::numeric_limits<double>::infinity();
-	}
+	for (int i = 0; i < 4; i++)
+		ranges[i] = m_floor->rangeAlong(head, R_map_dvl * m_beams.col(i));
 	return ranges;
 }
 

@@ -71,7 +71,7 @@ TSimulationSummary CSurveySimulator::run(const std::string& prefix, const progre
 {
 	registerObservations();
 	const std::string rawlog = prefix + ".rawlog", images = imagesFolderOf(rawlog);
-	if (m_rig) {
+	if (m_scene.hasCamera()) {
 		std::filesystem::remove_all(images);  // no picture of an earlier run stays behind
 		makeFolder(images);
 	}
@@ -103,7 +103,7 @@ TSimulationSummary CSurveySimulator::run(const std::string& prefix, const progre
 	summary.observations = writer.count();
 	summary.stereo_pairs = truth.size();
 	summary.kept_pairs = pairs.size();
-	if (m_rig) writeTumTrajectory(prefix + ".gt.tum", truth);
+	if (m_scene.hasCamera()) writeTumTrajectory(prefix + ".gt.tum", truth);
 	writeSensors(sensorsPathOf(rawlog), m_nominal);
 	writer.finish();
 	return summary;

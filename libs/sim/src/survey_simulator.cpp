@@ -1,64 +1,26 @@
-#include <posidonia/base/error.h>
 #include <posidonia/sim/survey_simulator.h>
-
-#include <cmath>
 
 namespace posidonia
 {
-using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using mrpt::obs::CObservationStereoImages;
 
-/** The rig as it is in the world, above its floor. */
-struct CSurveySimulator::TRig
-{
-	TRig(const TSimulationOptions& o, const TStereoSpec& nominal)
-		: errors(drawnSigns(o.calibration_error, o.run.seed)),
-		  spec(trueStereo(nominal, errors)),
-		  T_body_camera(spec.T_body_sensor()),
-		  floor(o.floor, o.run.seed),
-		  renderer(floor, o.floor.depth, spec.camera, o.water, o.camera),
-		  seed(seedOf(o.run.seed, "pixel noise"))
-	{
-	}
-	TCalibrationErrorOptions errors;
-	TStereoSpec spec;
-	Isometry3d T_body_camera;
-	CFloorTexture floor;
-	CFloorRenderer renderer;
-	uint64_t seed;
-};
-
 CSurveySimulator::CSurveySimulator(const TSimulationOptions& options, const TSensorSuite& nominal)
-	: m_options(options), m_nominal(nominal), m_motion(options.route, options.motion, options.run.seed)
+	: m_options(options),
+	  m_nominal(nominal),
+	  m_motion(options.route, options.motion, options.run.seed),
+	  m_scene(options, nominal)
 {
 	if (!options.run.stereo) m_nominal.stereo.clear();
-	if (m_nominal.stereo.size() > 1)
-		throw CError(
-			"[Sensor.*]", "the simulator carries one stereo rig at most", "leave one entry of kind stereo");
-	if (m_nominal.stereo.empty()) return;
-	requireFloorUnderRoute();
-	m_rig = std::make_unique<TRig>(m_options, m_nominal.stereo.begin()->second);
+	if (m_scene.hasCamera()) requireFloorUnderRoute();
 }
-CSurveySimulator::~CSurveySimulator() = default;
 
 void CSurveySimulator::requireFloorUnderRoute() const
 {
-	const TStereoSpec& rig = m_nominal.stereo.begin()->second;
-	const double view = std::hypot(rig.camera.width, rig.camera.height) / 2 / rig.camera.fx;
-	for (const auto& a : m_motion.plan().arrivals()) {
-		const double height = m_options.floor.depth - a.position.z();
-		const double margin = height * view + rig.T_body_sensor().translation().head<2>().norm();
-		if (height <= 0)
-			throw CError("[Route]", "a set point lies under the sea floor", "make [Floor] depth larger");
-		if (std::abs(a.position.x()) + margin > m_options.floor.extent_north / 2 ||
-			std::abs(a.position.y()) + margin > m_options.floor.extent_east / 2)
-			throw CError(
-				"[Route]",
-				"the camera sees over the end of the floor's texture at north " +
-					std::to_string(a.position.x()) + " east " + std::to_string(a.position.y()),
-				"make [Floor] extent_north or extent_east larger");
-	}
+	std::vector<Vector3d> positions;
+	for (const auto& a : m_motion.plan().arrivals())
+		positions.push_back(a.position);
+	m_scene.requireFloorUnder(positions);
 }
 
 double CSurveySimulator::duration() const
@@ -95,7 +57,7 @@ class CPairChooser
 
 void CSurveySimulator::stream(const std::function<void(const TSimulatedObservation&)>& consume) const
 {
-	CSensorBank bank(m_options, m_nominal);
+	CSensorBank bank(m_options, m_nominal, m_scene.floor());
 	CPairChooser chooser(m_options.run);
 	uint64_t frame = 0;
 	for (double t = bank.nextTime(); t <= duration(); t = bank.nextTime()) {
@@ -113,10 +75,8 @@ void CSurveySimulator::stream(const std::function<void(const TSimulatedObservati
 
 TGreyPair CSurveySimulator::render(const TSimulatedObservation& pair) const
 {
-	const double exposure = pair.truth.t + m_rig->errors.camera_clock;
-	const Isometry3d T_map_camera = m_motion.at(exposure).T_map_body * m_rig->T_body_camera;
-	return renderPair(
-		m_rig->renderer, T_map_camera, m_rig->spec.camera.baseline, m_rig->seed, pair.frame.value());
+	const double exposure = pair.truth.t + m_scene.cameraClock();
+	return m_scene.photograph(m_motion.at(exposure).T_map_body, pair.frame.value());
 }
 
 void CSurveySimulator::embedPictures(const TSimulatedObservation& pair) const

@@ -16,6 +16,7 @@ struct TFloorOptions
 	std::string texture{"photo"}, image{"textures/noaa_reef.jpg"};
 	double image_width{30}, blend{0.8};
 	double extent_north{30}, extent_east{40}, resolution{0.005};
+	double margin{0};
 	double brightness{115}, contrast{1};
 
 	template <class VISITOR>
@@ -30,6 +31,9 @@ struct TFloorOptions
 			"Width of the picture's border that fades into the procedural floor [m]");
 		v.number("extent_north", extent_north, between(1, 400), "Floor about the origin, along north [m]");
 		v.number("extent_east", extent_east, between(1, 400), "Floor about the origin, along east [m]");
+		v.number(
+			"margin", margin, atLeast(0),
+			"The texture must reach this much farther than the camera sees from the route [m]");
 		v.number("resolution", resolution, between(0.0005, 1), "Size of a texture pixel [m]");
 		v.number("brightness", brightness, between(0, 255), "Mean grey of sand and rock");
 		v.number(

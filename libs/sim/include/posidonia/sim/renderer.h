@@ -44,8 +44,9 @@ class CFloorRenderer
 		const CFloorTexture& floor, double depth, const TStereoCamera& camera, const TWaterOptions& water,
 		const TCameraOptions& sensor);
 
-	/** What one camera at T_map_camera sees; `noise_seed` fixes the sensor's noise. CV_8UC1. */
-	cv::Mat render(const Eigen::Isometry3d& T_map_camera, uint64_t noise_seed) const;
+	/** What one camera at T_map_camera sees; `noise_seed` fixes the sensor's noise, `water_factor` multiplies
+	 * both coefficients of the water. CV_8UC1. */
+	cv::Mat render(const Eigen::Isometry3d& T_map_camera, uint64_t noise_seed, double water_factor = 1) const;
 
    private:
 	struct TRays;
@@ -54,7 +55,7 @@ class CFloorRenderer
 	TLevels chooseLevels(double height) const;
 	void intersectRow(const TRays& rays, TRow& row) const;
 	void sampleRow(const TLevels& levels, TRow& row) const;
-	void develop(int v, const TRow& row, uint64_t noise_seed, uint8_t* out) const;
+	void develop(int v, const TRow& row, float water_factor, uint64_t noise_seed, uint8_t* out) const;
 	void buildTables(const TWaterOptions& water, const TCameraOptions& sensor);
 
 	const CFloorTexture& m_floor;
@@ -68,5 +69,5 @@ class CFloorRenderer
 /** Both pictures of the rig with the LEFT camera at T_map_camera; frame numbers give independent noise. */
 TGreyPair renderPair(
 	const CFloorRenderer& renderer, const Eigen::Isometry3d& T_map_camera, double baseline, uint64_t seed,
-	uint64_t frame);
+	uint64_t frame, double water_factor = 1);
 }  // namespace posidonia

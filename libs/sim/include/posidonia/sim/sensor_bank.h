@@ -28,6 +28,10 @@ class CSensorBank
 	/** `nominal`: what the rawlog and sensors.ini say; the world differs from it by
 	 * options.calibration_error. */
 	CSensorBank(const TSimulationOptions& options, const TSensorSuite& nominal);
+	/** As above, over a given floor: that of the scene, so that it is made once. */
+	CSensorBank(
+		const TSimulationOptions& options, const TSensorSuite& nominal,
+		const std::shared_ptr<const CSeaFloor>& floor);
 
 	/** When the next measurement falls due [s from the start]: exactly its stamp - start_time. */
 	double nextTime() const;

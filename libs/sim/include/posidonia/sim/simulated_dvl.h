@@ -3,8 +3,10 @@
 #include <posidonia/obs/CObservationDVL.h>
 #include <posidonia/sim/calibration_error.h>
 #include <posidonia/sim/random.h>
+#include <posidonia/sim/sea_floor.h>
 #include <posidonia/sim/vehicle_motion.h>
 
+#include <memory>
 #include <optional>
 
 namespace posidonia
@@ -42,7 +44,7 @@ class CSimulatedDvl
    public:
 	CSimulatedDvl(
 		const std::string& label, const TDvlSpec& nominal, const TSimulatedDvlOptions& options,
-		const TCalibrationErrorOptions& errors, double floor_depth, uint64_t seed);
+		const TCalibrationErrorOptions& errors, std::shared_ptr<const CSeaFloor> floor, uint64_t seed);
 	mrpt::obs::CObservation::Ptr measure(const TVehicleState& state, double stamp);
 
 	double scale() const { return m_scale; }  ///< Measured / true velocity
@@ -62,7 +64,8 @@ class CSimulatedDvl
 	TDvlSpec m_nominal;
 	TSimulatedDvlOptions m_options;
 	Eigen::Isometry3d m_T_body_dvl;	 ///< True
-	double m_scale, m_floor_depth;
+	double m_scale;
+	std::shared_ptr<const CSeaFloor> m_floor;
 	Eigen::Matrix<double, 3, 4> m_beams;
 	CNoise m_noise, m_outliers, m_losses;
 	std::optional<double> m_start;	///< Stamp of the first ping

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <posidonia/geometry/trajectory.h>
+#include <posidonia/sim/scene.h>
 #include <posidonia/sim/sensor_bank.h>
 
-#include <memory>
 #include <optional>
 
 namespace posidonia
@@ -34,7 +34,6 @@ class CSurveySimulator
 	/** Throws CError when the options can't be simulated (route off the floor's texture, no such picture
 	 * ...). */
 	CSurveySimulator(const TSimulationOptions& options, const TSensorSuite& nominal);
-	~CSurveySimulator();
 
 	using progress_t = std::function<void(double fraction)>;
 	/** Writes <prefix>.rawlog, <prefix>_Images/, <prefix>.sensors.ini and <prefix>.gt.tum. `progress` may be
@@ -49,16 +48,16 @@ class CSurveySimulator
 	void embedPictures(const TSimulatedObservation& pair) const;
 
 	const CVehicleMotion& motion() const { return m_motion; }
+	const CScene& scene() const { return m_scene; }
 	double duration() const;  ///< [s]
 
    private:
-	struct TRig;
 	void requireFloorUnderRoute() const;
 
 	TSimulationOptions m_options;
 	TSensorSuite m_nominal;
 	CVehicleMotion m_motion;
-	std::unique_ptr<TRig> m_rig;
+	CScene m_scene;
 };
 
 /** Writes a trajectory as TUM lines `t x y z qx qy qz qw`, 9 decimals of time and 12 of the rest; whole or

@@ -126,7 +126,7 @@ CFloorRenderer::TLevels CFloorRenderer::chooseLevels(double height) const
 		static_cast<float>(level - static_cast<double>(fine))};
 }
 
-cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_seed) const
+cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_seed, double water_factor) const
 {
 	const Matrix3d& R = T_map_camera.linear();
 	const Vector3d centre = T_map_camera.translation();
@@ -146,7 +146,9 @@ cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_se
 		rays.length = m_ray_length.data() + static_cast<size_t>(v) * width;
 		intersectRow(rays, row);
 		sampleRow(levels, row);
-		develop(v, row, mixed(noise_seed, static_cast<uint64_t>(v)), picture.ptr<uint8_t>(v));
+		develop(
+			v, row, static_cast<float>(water_factor), mixed(noise_seed, static_cast<uint64_t>(v)),
+			picture.ptr<uint8_t>(v));
 	}
 	return picture;
 }
@@ -174,7 +176,8 @@ void CFloorRenderer::sampleRow(const TLevels& levels, TRow& row) const
 	}
 }
 
-void CFloorRenderer::develop(int v, const TRow& row, uint64_t noise_seed, uint8_t* out) const
+void CFloorRenderer::develop(
+	int v, const TRow& row, float water_factor, uint64_t noise_seed, uint8_t* out) const
 {
 	const float* vignetting =
 		m_vignetting.data() + static_cast<size_t>(v) * static_cast<size_t>(m_camera.width);
@@ -183,7 +186,8 @@ void CFloorRenderer::develop(int v, const TRow& row, uint64_t noise_seed, uint8_
 	uint64_t bits = 0;
 	for (int u = 0; u < m_camera.width; u++) {
 		bits = u % 4 == 0 ? mixed(noise_seed + static_cast<uint64_t>(u)) : bits >> 16;
-		const int i = static_cast<int>(std::min(row.range[u] / kRangeStep + 0.5f, kRanges - 1.0f));
+		const int i =
+			static_cast<int>(std::min(water_factor * row.range[u] / kRangeStep + 0.5f, kRanges - 1.0f));
 		const float light = (row.radiance[u] * direct[i] + veil[i]) * vignetting[u] + noise[bits & mask];
 		out[u] = static_cast<uint8_t>(std::min(std::max(light + 0.5f, 0.0f), 255.0f));
 	}
@@ -191,11 +195,11 @@ void CFloorRenderer::develop(int v, const TRow& row, uint64_t noise_seed, uint8_
 
 TGreyPair renderPair(
 	const CFloorRenderer& renderer, const Isometry3d& T_map_camera, double baseline, uint64_t seed,
-	uint64_t frame)
+	uint64_t frame, double water_factor)
 {
 	const Isometry3d T_map_right = T_map_camera * Eigen::Translation3d(baseline, 0, 0);
 	return {
-		renderer.render(T_map_camera, mixed(seed, frame, 0)),
-		renderer.render(T_map_right, mixed(seed, frame, 1))};
+		renderer.render(T_map_camera, mixed(seed, frame, 0), water_factor),
+		renderer.render(T_map_right, mixed(seed, frame, 1), water_factor)};
 }
 }  // namespace posidonia
