@@ -148,9 +148,9 @@ TEST(EkfApp, NewRawlogReplaysWithItsPicturesByLink)
 	runApp(
 		app, {"-c", survey().ini, "-r", r.rawlog, "-o", folder / "run", "--set", "Odometry.source=recorded",
 			  "--set", "RecordedOdometry.label=EKF", "-g", survey().truth});
-	EXPECT_EQ(app.results().nodes, slamRun().results().nodes);
+	EXPECT_EQ(app.results().counts.nodes, slamRun().results().counts.nodes);
 	EXPECT_LT(metric(app.results().metrics, "odom.ate.unaligned.mean"), 0.05);
-	EXPECT_GT(app.results().sequential_edges, 0);
+	EXPECT_GT(app.results().counts.sequential_edges, 0);
 	runEkf(folder);	 // again into the same folder: the link is replaced
 	EXPECT_TRUE(fs::is_symlink(link));
 }

@@ -30,19 +30,19 @@ TEST(GraphSlamApp, FilesHoldWhatMemoryHolds)
 {
 	const auto& r = slamRun().results();
 	const std::string folder = r.folder + "/";
-	EXPECT_EQ(static_cast<size_t>(r.nodes), r.trajectories.nodes.size());
+	EXPECT_EQ(static_cast<size_t>(r.counts.nodes), r.trajectories.nodes.size());
 	expectSameTrajectory(folder + "nodes.tum", r.trajectories.nodes);
 	expectSameTrajectory(folder + "slam.tum", r.trajectories.slam);
 	expectSameTrajectory(folder + "odom.tum", r.trajectories.odom);
 	expectSameTrajectory(folder + "ekf.tum", r.trajectories.ekf);
 
 	const std::string g2o = fileBytes(folder + "graph.g2o");
-	EXPECT_EQ(linesWith(g2o, "VERTEX_SE3:QUAT"), r.nodes);
+	EXPECT_EQ(linesWith(g2o, "VERTEX_SE3:QUAT"), r.counts.nodes);
 	int accepted = 0;
 	for (const auto& row : readLoops(folder + "loops.csv"))
 		accepted += row.accepted();
-	EXPECT_EQ(accepted, r.sequential_edges + r.roi_edges);
-	EXPECT_EQ(linesWith(g2o, "EDGE_SE3:QUAT"), r.nodes - 1 + accepted) << "odometry edges and accepted ones";
+	EXPECT_EQ(accepted, r.counts.sequential_edges + r.counts.roi_edges);
+	EXPECT_EQ(linesWith(g2o, "EDGE_SE3:QUAT"), r.counts.nodes - 1 + accepted) << "odometry edges and accepted ones";
 
 	const TMetrics rows = readMetricsJson(folder + "metrics.json");
 	ASSERT_EQ(rows.size(), r.metrics.size());
@@ -56,12 +56,12 @@ TEST(GraphSlamApp, FilesHoldWhatMemoryHolds)
 TEST(GraphSlamApp, TheMapIsNearTheTruthAndHasLoops)
 {
 	const auto& r = slamRun().results();
-	EXPECT_GE(r.nodes, 8);
-	EXPECT_GT(r.sequential_edges, r.nodes - 2);
-	EXPECT_GT(r.roi_edges, 0);
+	EXPECT_GE(r.counts.nodes, 8);
+	EXPECT_GT(r.counts.sequential_edges, r.counts.nodes - 2);
+	EXPECT_GT(r.counts.roi_edges, 0);
 	EXPECT_LT(metric(r.metrics, "nodes.ate.unaligned.mean"), 0.03);
 	EXPECT_EQ(metric(r.metrics, "loops.false"), 0);
-	EXPECT_LT(r.chi2, r.dijkstra_chi2);
+	EXPECT_LT(r.counts.chi2, r.counts.dijkstra_chi2);
 }
 
 TEST(GraphSlamApp, StereoEdgesTakeTheDriftAway)
@@ -96,7 +96,7 @@ TEST(GraphSlamApp, TheTruthIsForScoringOnly)
 	expectSameFiles(
 		slamRun().results().folder, folder / "run",
 		{"nodes.tum", "slam.tum", "odom.tum", "ekf.tum", "loops.csv", "graph.g2o"});
-	EXPECT_EQ(metric(app.results().metrics, "graph.nodes"), slamRun().results().nodes);
+	EXPECT_EQ(metric(app.results().metrics, "graph.nodes"), slamRun().results().counts.nodes);
 	for (const auto& row : app.results().metrics)
 		EXPECT_EQ(row.what.find(".ate."), std::string::npos) << row.what;
 	EXPECT_FALSE(fs::exists(folder / "run/error.svg"));

@@ -20,8 +20,8 @@ TEST(ShippedSet, GraphSlamTakesTheDriftAway)
 	CGraphSlamApp app;
 	runApp(app, {"-c", kIni, "-r", kLog, "-o", folder / "run"});
 	const auto& results = app.results();
-	EXPECT_GT(results.roi_edges, 100);
-	EXPECT_LT(results.chi2, results.dijkstra_chi2 / 10);
+	EXPECT_GT(results.counts.roi_edges, 100);
+	EXPECT_LT(results.counts.chi2, results.counts.dijkstra_chi2 / 10);
 	EXPECT_GT(metric(results.metrics, "odom.ate.unaligned.mean"), 0.08);
 	EXPECT_LT(metric(results.metrics, "nodes.ate.unaligned.mean"), 0.01);
 	EXPECT_LT(metric(results.metrics, "slam.ate.unaligned.mean"), 0.015);

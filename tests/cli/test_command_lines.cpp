@@ -13,6 +13,7 @@ TEST(Cli, HelpNamesTheFlagsAndTheExitStatus)
 		{"auv-graphslam",
 		 {"-r", "--rawlog", "-g", "--ground-truth", "--node-decider", "--edge-deciders", "--optimizer",
 		  "--list-deciders", "--assume-defaults"}},
+		{"auv-mission", {"--realtime"}},
 		{"auv-eval", {"-i", "--input", "-g", "--ground-truth", "--align", "--json", "--summary"}},
 		{"auv-dataset2rawlog",
 		 {"-i", "--input", "--format", "euroc|dvl-gt-csv", "--skip-bad", "--level", "--cubic", "--overwrite",
@@ -58,6 +59,7 @@ TEST(Cli, WrongCommandLinesEndWithTwo)
 	}
 	expectError("auv-graphslam", "", 2, {"-r/--rawlog: is missing"});
 	expectError("auv-ekf", "", 2, {"-r/--rawlog: is missing"});
+	expectError("auv-mission", "", 1, {"[ClosedLoop] mission: is missing"});
 	expectError("auv-eval", "", 2, {"-i/--input: is missing"});
 	expectError("auv-eval", "-i " + survey().rawlog, 2, {"-g/--ground-truth: is missing"});
 	expectError("auv-dataset2rawlog", "-o x.rawlog", 2, {"-i/--input: is missing"});

@@ -30,9 +30,9 @@ class CPlant
 			step(m_law.thrustsOf(set_points), 0.01);
 	}
 
-	TNavigationState state(double stamp) const
+	TControlState state(double stamp) const
 	{
-		TNavigationState s;
+		TControlState s;
 		s.stamp = stamp;
 		s.T_map_body.linear() = rotationFromYawPitchRoll(heading, 0, 0);
 		s.T_map_body.translation() = position;
@@ -74,7 +74,7 @@ class CPlant
 struct TRun
 {
 	std::vector<TAutopilotOutput> outputs;
-	std::vector<TNavigationState> states;
+	std::vector<TControlState> states;
 	std::vector<TMissionEvent> events;
 	bool finished{false};
 
@@ -86,7 +86,7 @@ struct TRun
 };
 
 /** Called before each step; may change plant, navigation and health (faults). */
-using TFault = std::function<void(double t, CPlant&, TNavigationState&, TVehicleHealth&)>;
+using TFault = std::function<void(double t, CPlant&, TControlState&, TVehicleHealth&)>;
 
 /** Runs a mission in closed loop at 10 Hz until it is finished, and `after` seconds on, for `longest` [s] at
  * most. */
@@ -99,7 +99,7 @@ inline TRun runMission(
 	double until = longest;
 	for (int i = 0; 0.1 * i <= until; i++) {
 		const double t = 0.1 * i;
-		TNavigationState state = plant.state(t);
+		TControlState state = plant.state(t);
 		TVehicleHealth health;
 		health.stamp = health.mission_time = t;
 		if (fault) fault(t, plant, state, health);

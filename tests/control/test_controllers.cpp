@@ -50,7 +50,7 @@ TEST(PoseController, ThePitchIsAllowedFor)
 {
 	// dz/dt = -u sin(pitch) + w cos(pitch) must come out as the wish, 0.
 	const CPoseController controller{TPoseControlOptions()};
-	TNavigationState state;
+	TControlState state;
 	state.T_map_body.linear() = rotationFromYawPitchRoll(0.3, 0.2, 0);
 	state.v_body.x() = 0.3;
 	TGuidanceCommand guidance;
@@ -63,7 +63,7 @@ TEST(PoseController, TheHeadingErrorIsWrapped)
 {
 	const TPoseControlOptions options;
 	const CPoseController controller{options};
-	TNavigationState state;
+	TControlState state;
 	state.T_map_body.linear() = rotationFromYawPitchRoll(3.1, 0, 0);
 	TGuidanceCommand guidance;
 	guidance.heading.value = -3.1 + 4 * M_PI;

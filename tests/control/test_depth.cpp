@@ -8,9 +8,9 @@ using namespace posidonia::testing;
 
 namespace
 {
-TNavigationState at(double stamp, double depth, std::optional<double> altitude)
+TControlState at(double stamp, double depth, std::optional<double> altitude)
 {
-	TNavigationState s;
+	TControlState s;
 	s.stamp = stamp;
 	s.T_map_body.translation().z() = depth;
 	s.altitude = altitude;
@@ -74,7 +74,7 @@ TEST(DepthInClosedLoop, AltitudeModeFollowsASlope)
 	leg.altitude = 2.5;
 	const auto floor = [](const CPlant& p) { return 6 + 0.05 * p.position.x(); };
 	double worst = 0;
-	const TFault altimeter = [&](double t, CPlant& p, TNavigationState& s, TVehicleHealth&) {
+	const TFault altimeter = [&](double t, CPlant& p, TControlState& s, TVehicleHealth&) {
 		s.altitude = floor(p) - p.position.z();
 		if (t > 40) worst = std::max(worst, std::abs(*s.altitude - 2.5));
 	};

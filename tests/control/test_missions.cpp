@@ -171,7 +171,7 @@ TEST(Missions, AForcedCorrectionDoesNotShowInTheCommands)
 	CPlant plant;
 	CSafeCorrection safe{TControllerPoseOptions()};
 	double jump = 0, converged = 0;
-	const TFault slam = [&](double t, CPlant&, TNavigationState& s, TVehicleHealth&) {
+	const TFault slam = [&](double t, CPlant&, TControlState& s, TVehicleHealth&) {
 		const Eigen::Isometry3d T_odom_body = T_odom_map * s.T_map_body;
 		if (t > 45) safe.setTarget(T_odom_map.inverse());
 		safe.advance(t, T_odom_body);

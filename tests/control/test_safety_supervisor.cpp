@@ -10,7 +10,7 @@ namespace
 /** A healthy vehicle at 3 m depth and 3 m altitude. */
 struct TVehicle
 {
-	TNavigationState navigation;
+	TControlState navigation;
 	TVehicleHealth health;
 	TSafetyOptions limits;
 
@@ -182,12 +182,12 @@ const TStep kLong = legTo(60, 0, 5);
 
 /** Runs a long leg at 5 m depth with a fault from t = 40 s on. */
 TRun withFault(
-	CPlant& plant, const std::function<void(double, CPlant&, TNavigationState&, TVehicleHealth&)>& fault,
+	CPlant& plant, const std::function<void(double, CPlant&, TControlState&, TVehicleHealth&)>& fault,
 	double longest, const TAutopilotOptions& options = {})
 {
 	return runMission(
 		plant, options, missionOf({diveTo(5), kLong}), longest, 0,
-		[&](double t, CPlant& p, TNavigationState& s, TVehicleHealth& h) {
+		[&](double t, CPlant& p, TControlState& s, TVehicleHealth& h) {
 			if (t > 40) fault(t - 40, p, s, h);
 		});
 }
@@ -197,7 +197,7 @@ TEST(SafetyInClosedLoop, AbortAndSurfaceComesUpByTheControllers)
 {
 	CPlant plant;
 	const TRun run = withFault(
-		plant, [](double, CPlant&, TNavigationState&, TVehicleHealth& h) { h.dvl_age = 11; }, 200);
+		plant, [](double, CPlant&, TControlState&, TVehicleHealth& h) { h.dvl_age = 11; }, 200);
 	EXPECT_TRUE(run.finished);
 	EXPECT_LT(plant.position.z(), 0.3);
 	EXPECT_EQ(run.count(EMissionEvent::MISSION_ABORTED), 1);
@@ -222,7 +222,7 @@ TEST(SafetyInClosedLoop, NearTheFloorTheVehicleClimbsAndGoesOn)
 	// A hill 3 m high stands at 7 to 16 m north; the mission flies 2.5 m over the plain in depth mode.
 	CPlant plant;
 	double lowest = 100, lowest_on_top = 100;
-	const TFault floor = [&](double, CPlant& p, TNavigationState& s, TVehicleHealth&) {
+	const TFault floor = [&](double, CPlant& p, TControlState& s, TVehicleHealth&) {
 		const double x = p.position.x();
 		const double ramp = std::clamp(std::min(x - 3, 20 - x) / 4, 0.0, 1.0);
 		s.altitude = 7.5 - 3 * ramp - p.position.z();
@@ -243,8 +243,8 @@ TEST(SafetyInClosedLoop, EmergencySurfacingNeedsNoNavigation)
 	const TSafetyOptions limits;
 	const TRun run = withFault(
 		plant,
-		[](double since, CPlant&, TNavigationState& s, TVehicleHealth& h) {
-			s = TNavigationState();	 // nothing at all
+		[](double since, CPlant&, TControlState& s, TVehicleHealth& h) {
+			s = TControlState();	 // nothing at all
 			h.navigation_age = h.depth_age = since;
 		},
 		120);
@@ -267,7 +267,7 @@ TEST(SafetyInClosedLoop, AShortGapStopsTheThrustersAndTheMissionGoesOn)
 	bool stopped = false;
 	const TRun run = withFault(
 		plant,
-		[&](double since, CPlant&, TNavigationState&, TVehicleHealth& h) {
+		[&](double since, CPlant&, TControlState&, TVehicleHealth& h) {
 			if (since < 1.9) h.navigation_age = since;
 		},
 		400);

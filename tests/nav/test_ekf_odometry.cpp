@@ -41,7 +41,7 @@ TEST(EkfOdometry, WithoutNoiseItFollowsTheTruth)
 		EXPECT_DOUBLE_EQ(odometry.stamp(), stampOf(o));
 		EXPECT_LT((odometry.now().T.translation() - truth.T_map_body.translation()).norm(), 0.02)
 			<< "t=" << truth.t;
-		EXPECT_LT((odometry.velocity() - truth.velocity).norm(), 2e-3) << "t=" << truth.t;
+		EXPECT_LT((odometry.motion().velocity - truth.velocity).norm(), 2e-3) << "t=" << truth.t;
 	});
 	EXPECT_NEAR(odometry.now().path_length, 0.3 * 60, 0.1);	 // the first ping waits for the second
 }
@@ -84,7 +84,7 @@ TEST(EkfOdometry, SpotTurnMovesTheDvlButNotTheVehicle)
 	});
 	EXPECT_NEAR(fastest, 0.4 * 0.4145, 1e-6);  // the instrument itself moves
 	EXPECT_LT((odometry.now().T.translation() - scene.start.translation()).norm(), 2e-3);
-	EXPECT_LT(odometry.velocity().norm(), 1e-4);
+	EXPECT_LT(odometry.motion().velocity.norm(), 1e-4);
 }
 
 TEST(EkfOdometry, PlantedOutliersAreGatedAndCounted)

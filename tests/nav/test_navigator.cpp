@@ -141,7 +141,7 @@ TEST(Navigator, AtRestOnARackTheIMUAloneHolds)
 	const CEkfOdometry held = runChanged(scene, asItIs);
 	EXPECT_LT(held.now().T.translation().head<2>().norm(), 0.2);
 	EXPECT_GT(drift, 1);
-	EXPECT_LT(held.velocity().norm(), 0.02);
+	EXPECT_LT(held.motion().velocity.norm(), 0.02);
 }
 
 TEST(Navigator, AMovingVehicleIsNotTakenForOneAtRest)

@@ -28,6 +28,7 @@ class CSquareWay : public COdometrySource
 		return {m_clone.inverse() * m_T, 1e-6 * Matrix6d::Identity(), m_way - m_way_at_clone};
 	}
 	TPoseEstimate now() const override { return {m_T, 1e-6 * Matrix6d::Identity(), m_way}; }
+	TBodyMotion motion() const override { return {Vector3d(0.1, 0, 0), Vector3d::Zero()}; }
 
    private:
 	Isometry3d m_T{Isometry3d::Identity()}, m_clone{Isometry3d::Identity()};

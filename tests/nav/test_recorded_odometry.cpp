@@ -54,6 +54,18 @@ TEST(RecordedOdometry, PosesPassThrough)
 	EXPECT_LT(distance(odometry.sinceClone().T, poseAt(0).inverse() * poseAt(4.75)), 1e-9);
 }
 
+TEST(RecordedOdometry, MotionIsThatBetweenTheLastTwoPosesInBodyAxes)
+{
+	CRecordedOdometry odometry({});
+	odometry.add(robotPose(0));
+	EXPECT_TRUE(odometry.motion().velocity.isZero(0));
+	odometry.add(robotPose(0.25));
+	const auto motion = odometry.motion();
+	const Vector3d expected = poseAt(0.25).linear().transpose() * Vector3d(0.5, 0, 0);
+	EXPECT_LT((motion.velocity - expected).norm(), 1e-6) << motion.velocity.transpose();
+	EXPECT_LT((motion.rate - Vector3d(0, 0, 0.1)).norm(), 1e-6) << motion.rate.transpose();
+}
+
 TEST(RecordedOdometry, StereoStampsAreInterpolatedOrExtrapolatedForAWhile)
 {
 	CRecordedOdometry odometry({});

@@ -31,7 +31,12 @@ class PublicGraphs : public ::testing::TestWithParam<TPublicGraph>
 };
 INSTANTIATE_TEST_SUITE_P(
 	Known, PublicGraphs,
-	::testing::Values(TPublicGraph{"sphere2500", 727.1497}, TPublicGraph{"parking-garage", 1.238691}));
+	::testing::Values(TPublicGraph{"sphere2500", 727.1497}, TPublicGraph{"parking-garage", 1.238691}),
+	[](const auto& known) {
+		std::string name = known.param.name;
+		std::replace(name.begin(), name.end(), '-', '_');
+		return name;
+	});
 
 TEST_P(PublicGraphs, ReachTheKnownOptimum)
 {

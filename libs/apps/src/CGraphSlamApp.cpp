@@ -1,7 +1,6 @@
 #include <posidonia/apps/CGraphSlamApp.h>
 #include <posidonia/apps/progress.h>
 #include <posidonia/base/files.h>
-#include <posidonia/eval/trajectory_io.h>
 #include <posidonia/graphslam/decider_registry.h>
 
 #include <chrono>
@@ -43,16 +42,6 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 	return true;
 }
 
-namespace
-{
-/** Keeps MRPT's timer from printing its table when it dies, in an error too: the times are in timings.csv. */
-struct TSilencedAtEnd
-{
-	mrpt::system::CTimeLogger& timer;
-	~TSilencedAtEnd() { timer.disable(); }
-};
-}  // namespace
-
 void CGraphSlamApp::run()
 {
 	const auto start = std::chrono::steady_clock::now();  // for the log alone
@@ -68,7 +57,7 @@ void CGraphSlamApp::run()
 	replay(slam, reader);
 	slam.makeExact();
 	collect(slam, reader);
-	writeResults(slam);
+	writeSlamFiles(*m_folder, slam, m_results.trajectories);
 	logSummary(slam, reader, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 	if (!m_input.truth.empty()) score(slam);
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
@@ -81,22 +70,13 @@ void CGraphSlamApp::replay(CStereoSlam& slam, CRawlogReader& reader)
 	CProgress progress("graph-SLAM", m_input.verbosity == 0);
 	while (const auto observation = reader.next()) {
 		slam.add(observation);
+		rememberCausal(slam, m_results.trajectories);
 		if (!IS_CLASS(*observation, CObservationStereoImages) || slam.map().nodeCount() == 0) continue;
-		remember(slam);
 		progress.update(
 			reader.progress(),
 			mrpt::format("%d nodes, %zu edges", slam.map().nodeCount(), slam.map().edges().size()));
 	}
 	progress.update(1);
-}
-
-void CGraphSlamApp::remember(const CStereoSlam& slam)
-{
-	auto& t = m_results.trajectories;
-	const TCausalPose pose = slam.causal().back();
-	t.ekf.push_back({pose.stamp, uncorruptedPose(slam.odometry())});
-	t.odom.push_back({pose.stamp, pose.T_odom_body});
-	t.slam.push_back({pose.stamp, pose.T_map_body});
 }
 
 void CGraphSlamApp::collect(const CStereoSlam& slam, const CRawlogReader& reader)
@@ -109,31 +89,8 @@ void CGraphSlamApp::collect(const CStereoSlam& slam, const CRawlogReader& reader
 					slam.odometry().ready() ? "it holds no stereo pair" : "the odometry never became ready"),
 			"check its sensors with rawlog-edit --info, and [InitialPose]");
 	m_results.trajectories.nodes = slam.nodes();
-	m_results.nodes = slam.map().nodeCount();
-	for (const auto& edge : slam.map().edges()) {
-		m_results.sequential_edges += edge.kind == EEdgeKind::SEQUENTIAL;
-		m_results.roi_edges += edge.kind == EEdgeKind::ROI;
-	}
-	m_results.chi2 = slam.chi2();
-	m_results.dijkstra_chi2 = slam.dijkstraChi2();
-	m_results.metrics = {
-		{"graph.nodes", "", static_cast<double>(m_results.nodes)},
-		{"graph.sequential_edges", "", static_cast<double>(m_results.sequential_edges)},
-		{"graph.roi_edges", "", static_cast<double>(m_results.roi_edges)},
-		{"graph.chi2", "", m_results.chi2},
-		{"graph.chi2_dijkstra", "", m_results.dijkstra_chi2}};
-}
-
-void CGraphSlamApp::writeResults(const CStereoSlam& slam)
-{
-	const auto& t = m_results.trajectories;
-	writeTum(m_folder->file("ekf.tum"), t.ekf);
-	writeTum(m_folder->file("odom.tum"), t.odom);
-	writeTum(m_folder->file("slam.tum"), t.slam);
-	writeTum(m_folder->file("nodes.tum"), t.nodes);
-	slam.saveG2o(m_folder->file("graph.g2o"));
-	m_folder->write("loops.csv", candidatesCsv(slam.map().candidates));
-	m_folder->write("timings.csv", timingsCsv(slam.timer(), m_results.nodes));
+	m_results.counts = countsOf(slam);
+	m_results.metrics = m_results.counts.metrics();
 }
 
 void CGraphSlamApp::score(const CStereoSlam&)
@@ -152,12 +109,7 @@ void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& rea
 	m_folder->log(versionText(), m_input.verbosity - 1);
 	const std::string losses = replayLosses(reader);
 	if (!losses.empty()) m_folder->log(losses, m_input.verbosity + 1);	// even when quiet
-	m_folder->log(
-		mrpt::format(
-			"%d nodes, %d sequential and %d ROI edges; chi2 %.1f (composed from the root: %.3g)",
-			m_results.nodes, m_results.sequential_edges, m_results.roi_edges, m_results.chi2,
-			m_results.dijkstra_chi2),
-		m_input.verbosity);
+	m_folder->log(m_results.counts.text(), m_input.verbosity);
 	m_folder->log(candidateCounts(slam.map().candidates), m_input.verbosity);
 	const auto& poses = m_results.trajectories.slam;
 	m_folder->log(speedText(poses.back().stamp - poses.front().stamp, seconds), m_input.verbosity);

@@ -21,6 +21,12 @@ TExperiment TExperiment::load(CIniFile& ini, TSensorSuite& sensors)
 	section("Evaluation", e.evaluation);
 	section("Evaluation", e.loop_evaluation);
 	section("Report", e.report);
+	section("ClosedLoop", e.closed_loop);
+	section("Slam", e.latency);
+	section("ForcedCorrection", e.forced_correction);
+	section("ControllerPose", e.controller_pose);
+	e.autopilot.forEachSection(section);
+	e.faults = loadFaults(ini);
 	overrideSensors(sensors, ini);
 	ini.refuseUnknown();
 	return e;

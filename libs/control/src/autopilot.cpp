@@ -22,7 +22,7 @@ CAutopilot::CAutopilot(const TAutopilotOptions& options, const TMission& mission
 {
 }
 
-TAutopilotOutput CAutopilot::step(const TNavigationState& navigation, const TVehicleHealth& health)
+TAutopilotOutput CAutopilot::step(const TControlState& navigation, const TVehicleHealth& health)
 {
 	TAutopilotOutput out;
 	out.stamp = health.stamp;
@@ -46,7 +46,7 @@ TAutopilotOutput CAutopilot::step(const TNavigationState& navigation, const TVeh
 }
 
 void CAutopilot::supervise(
-	const TNavigationState& navigation, const TVehicleHealth& health, TAutopilotOutput& out)
+	const TControlState& navigation, const TVehicleHealth& health, TAutopilotOutput& out)
 {
 	const ESafetyLevel before = m_decision.level;
 	m_decision = m_supervisor.update(navigation, health);
@@ -59,7 +59,7 @@ void CAutopilot::supervise(
 		out.events.push_back({health.stamp, EMissionEvent::MISSION_ABORTED, m_decision.rules});
 }
 
-void CAutopilot::request(const TNavigationState& navigation, double dt, TAutopilotOutput& out)
+void CAutopilot::request(const TControlState& navigation, double dt, TAutopilotOutput& out)
 {
 	m_acceleration = {};
 	m_requests.put({"idle", out.stamp, PRIORITY_SAFETY_LOW, 0.0, 0.0, 0.0});
@@ -72,7 +72,7 @@ void CAutopilot::request(const TNavigationState& navigation, double dt, TAutopil
 	m_acceleration.heave = 0;
 }
 
-void CAutopilot::requestMission(const TNavigationState& navigation, double dt, TAutopilotOutput& out)
+void CAutopilot::requestMission(const TControlState& navigation, double dt, TAutopilotOutput& out)
 {
 	const TGuidanceCommand guidance = m_runner.update(navigation, m_observer.current(), dt, out.events);
 	if (m_runner.aborts()) m_supervisor.raise(ESafetyLevel::ABORT_AND_SURFACE);
@@ -95,7 +95,7 @@ void CAutopilot::requestAbort(double dt, TAutopilotOutput& out)
 		{"abort", out.stamp, PRIORITY_SAFETY, out.limited.surge, out.limited.heave, out.limited.yaw_rate});
 }
 
-void CAutopilot::control(const TNavigationState& navigation, double dt, TAutopilotOutput& out)
+void CAutopilot::control(const TControlState& navigation, double dt, TAutopilotOutput& out)
 {
 	const TVelocityCommand command = m_requests.merged(out.stamp);
 	const TVelocityCommand measured{navigation.v_body.x(), navigation.v_body.z(), navigation.omega_body.z()};
@@ -110,7 +110,7 @@ void CAutopilot::control(const TNavigationState& navigation, double dt, TAutopil
 	out.achieved = m_allocation.wrench(m_allocation.thrustsOf(out.set_points));
 }
 
-void CAutopilot::observeCurrent(const TNavigationState& navigation, double dt, TAutopilotOutput& out)
+void CAutopilot::observeCurrent(const TControlState& navigation, double dt, TAutopilotOutput& out)
 {
 	m_observer.update(
 		{navigation.heading(), navigation.omega_body.z(), navigation.v_body.head<2>(), out.achieved.X}, dt);
@@ -131,7 +131,7 @@ void CAutopilot::pause()
 	m_pose.reset({});
 }
 
-bool CAutopilot::finished(const TNavigationState& navigation, bool fresh) const
+bool CAutopilot::finished(const TControlState& navigation, bool fresh) const
 {
 	switch (m_decision.level) {
 		case ESafetyLevel::NONE:

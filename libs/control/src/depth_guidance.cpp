@@ -9,7 +9,7 @@ namespace
 constexpr double kSupposedAltitude = 0.5;  // COLA2: an altitude lost for good is taken as this [m]
 }
 
-double CDepthGuidance::altitude(const TNavigationState& navigation)
+double CDepthGuidance::altitude(const TControlState& navigation)
 {
 	if (navigation.altitude) {
 		m_stamp = navigation.stamp;
@@ -21,7 +21,7 @@ double CDepthGuidance::altitude(const TNavigationState& navigation)
 	return m_altitude - (navigation.depth() - m_depth);
 }
 
-double CDepthGuidance::target(const TStep& step, const TNavigationState& navigation)
+double CDepthGuidance::target(const TStep& step, const TControlState& navigation)
 {
 	if (!step.altitude_mode) return step.depth;
 	return std::max(0.0, navigation.depth() + altitude(navigation) - step.altitude);

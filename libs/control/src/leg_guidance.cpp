@@ -12,7 +12,7 @@ constexpr double kLowestSpeed = 0.05;  // So that the end line is crossed [m/s]
 }
 
 void CLegGuidance::begin(
-	const Vector2d& start, const Vector2d& end, double speed, const TNavigationState& navigation,
+	const Vector2d& start, const Vector2d& end, double speed, const TControlState& navigation,
 	const Vector2d& current, double heading)
 {
 	const Vector2d line = end - start;
@@ -64,13 +64,13 @@ double CLegGuidance::rateWeight(double now) const
 	return (1 - std::exp(-(now - m_running_since) / m_options.blend_time)) * slowing * slowing;
 }
 
-double CLegGuidance::crossRate(const TNavigationState& navigation) const
+double CLegGuidance::crossRate(const TControlState& navigation) const
 {
 	const Eigen::Vector3d v_map = navigation.T_map_body.linear() * navigation.v_body;
 	return std::cos(m_course) * v_map.y() - std::sin(m_course) * v_map.x();
 }
 
-TReference CLegGuidance::update(const TNavigationState& navigation, const Vector2d& current, double dt)
+TReference CLegGuidance::update(const TControlState& navigation, const Vector2d& current, double dt)
 {
 	locate(navigation.horizontal());
 	const double turned = navigation.stamp - m_begun;
@@ -94,7 +94,7 @@ TReference CLegGuidance::update(const TNavigationState& navigation, const Vector
 	}
 }
 
-TReference CLegGuidance::turn(const TNavigationState& navigation)
+TReference CLegGuidance::turn(const TControlState& navigation)
 {
 	// While it turns, the vehicle comes back to the corner as far as surge can bring it.
 	const Vector2d to_corner = m_progress.start - navigation.horizontal();
@@ -104,7 +104,7 @@ TReference CLegGuidance::turn(const TNavigationState& navigation)
 	return heading;
 }
 
-TReference CLegGuidance::run(const TNavigationState& navigation, const Vector2d& current, double dt)
+TReference CLegGuidance::run(const TControlState& navigation, const Vector2d& current, double dt)
 {
 	m_blend *= std::exp(-dt / m_options.blend_time);
 	const double offset = m_los.update(m_progress.cross, dt);
@@ -115,7 +115,7 @@ TReference CLegGuidance::run(const TNavigationState& navigation, const Vector2d&
 	return {m_heading, rate * rateWeight(navigation.stamp), 0};
 }
 
-TReference CLegGuidance::approach(const TNavigationState& navigation, const Vector2d& current, double dt)
+TReference CLegGuidance::approach(const TControlState& navigation, const Vector2d& current, double dt)
 {
 	const TSteering steering =
 		m_station.update(m_progress.end - navigation.horizontal(), current, navigation.heading());

@@ -23,7 +23,7 @@ std::string toString(EMissionEvent kind)
 }
 
 void CMissionRunner::begin(
-	const TNavigationState& navigation, const Vector2d& current, std::vector<TMissionEvent>& events)
+	const TControlState& navigation, const Vector2d& current, std::vector<TMissionEvent>& events)
 {
 	const TStep& step = m_mission.steps[m_step];
 	std::optional<Vector2d> before;
@@ -36,7 +36,7 @@ void CMissionRunner::begin(
 }
 
 void CMissionRunner::end(
-	EMissionEvent how, const TNavigationState& navigation, const Vector2d& current,
+	EMissionEvent how, const TControlState& navigation, const Vector2d& current,
 	std::vector<TMissionEvent>& events)
 {
 	events.push_back({navigation.stamp, how, m_mission.steps[m_step].name});
@@ -49,7 +49,7 @@ void CMissionRunner::end(
 }
 
 TGuidanceCommand CMissionRunner::update(
-	const TNavigationState& navigation, const Vector2d& current, double dt,
+	const TControlState& navigation, const Vector2d& current, double dt,
 	std::vector<TMissionEvent>& events)
 {
 	if (!m_started) begin(navigation, current, events);

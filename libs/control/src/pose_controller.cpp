@@ -14,7 +14,7 @@ double stepTowards(double now, double wanted, double limit, double step)
 }  // namespace
 
 TVelocityCommand CPoseController::command(
-	const TGuidanceCommand& guidance, const TNavigationState& navigation) const
+	const TGuidanceCommand& guidance, const TControlState& navigation) const
 {
 	TVelocityCommand command;
 	command.surge = guidance.surge;

@@ -61,7 +61,7 @@ std::string toString(ESafetyLevel level)
 	}
 }
 
-bool isFresh(const TNavigationState& navigation, const TVehicleHealth& health, const TSafetyOptions& limits)
+bool isFresh(const TControlState& navigation, const TVehicleHealth& health, const TSafetyOptions& limits)
 {
 	return navigation.valid && health.navigation_age <= limits.navigation_pause;
 }
@@ -119,7 +119,7 @@ ESafetyLevel CSafetySupervisor::levelOf(const TSafetyRule& rule, const TSafetyIn
 	return settling && abort ? ESafetyLevel::INFORMATIVE : rule.level;
 }
 
-TSafetyDecision CSafetySupervisor::update(const TNavigationState& navigation, const TVehicleHealth& health)
+TSafetyDecision CSafetySupervisor::update(const TControlState& navigation, const TVehicleHealth& health)
 {
 	TSafetyInput input{navigation, health, m_mission_timeout, 0};
 	if (m_emergency_since >= 0) input.emergency_for = health.stamp - m_emergency_since;

@@ -12,7 +12,7 @@ constexpr double kSurfaceDepth = 0.3;  // A vehicle afloat has its origin above 
 }
 
 void CStepGuidance::begin(
-	const TStep& step, const std::optional<Vector2d>& before, const TNavigationState& navigation,
+	const TStep& step, const std::optional<Vector2d>& before, const TControlState& navigation,
 	const Vector2d& current)
 {
 	const Vector2d here = navigation.horizontal();
@@ -39,7 +39,7 @@ void CStepGuidance::rampSurge(double wanted, double dt)
 	m_command.surge_rate = dt > 0 ? change / dt : 0;
 }
 
-void CStepGuidance::keepStation(const TNavigationState& navigation, const Vector2d& current, double dt)
+void CStepGuidance::keepStation(const TControlState& navigation, const Vector2d& current, double dt)
 {
 	const TSteering steering =
 		m_station.update(m_end - navigation.horizontal(), current, navigation.heading());
@@ -49,7 +49,7 @@ void CStepGuidance::keepStation(const TNavigationState& navigation, const Vector
 	rampSurge(steering.surge, dt);
 }
 
-TGuidanceCommand CStepGuidance::update(const TNavigationState& navigation, const Vector2d& current, double dt)
+TGuidanceCommand CStepGuidance::update(const TControlState& navigation, const Vector2d& current, double dt)
 {
 	m_depth_target = m_depth.target(m_step, navigation);
 	m_command.depth =
@@ -63,7 +63,7 @@ TGuidanceCommand CStepGuidance::update(const TNavigationState& navigation, const
 	return m_command;
 }
 
-bool CStepGuidance::reached(const TNavigationState& navigation) const
+bool CStepGuidance::reached(const TControlState& navigation) const
 {
 	const bool deep_enough = std::abs(m_depth_target - navigation.depth()) < m_step.tolerance_z;
 	switch (m_step.kind) {

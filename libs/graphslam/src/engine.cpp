@@ -143,6 +143,20 @@ TCausalPose CStereoSlam::now() const
 	return {m_impl->odometry->stamp(), T_map_odom * T_odom_body, T_odom_body};
 }
 
+Matrix6d CStereoSlam::covariance() const
+{
+	const TPoseEstimate odometry = m_impl->odometry->now();
+	const int last = map().lastNode();
+	if (last < 0) return odometry.cov;
+	Matrix6d cov = map().root_covariance;
+	if (last > 0)
+		cov = composeCovariance(
+			cov, map().relativePose(0, last),
+			m_impl->parts.uncertainty->relativeCovariances(map(), {0}, last).front());
+	const TPoseEstimate since = m_impl->odometry->sinceClone();
+	return composeCovariance(cov, since.T, since.cov);
+}
+
 bool CStereoSlam::addedNode() const
 {
 	return m_impl->engine->addedNode();

@@ -52,7 +52,7 @@ void CCola2Odometry::predictTo(double t)
 	if (!m_ready || !(dt > 0)) return;
 	m_nav.predict(m_R_map_body, dt);
 	m_edge.predict(m_R_map_body, dt);
-	m_path += velocity().norm() * dt;
+	m_path += motion().velocity.norm() * dt;
 }
 
 void CCola2Odometry::startIfComplete()

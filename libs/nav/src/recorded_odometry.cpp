@@ -112,6 +112,18 @@ TPoseEstimate CRecordedOdometry::sinceClone() const
 	return estimate;
 }
 
+TBodyMotion CRecordedOdometry::motion() const
+{
+	if (m_history.size() < 2) return {};
+	const TRecord &before = *std::prev(m_history.end(), 2), &last = m_history.back();
+	const Isometry3d T_before_last = before.T_odom_body.inverse() * last.T_odom_body;
+	const double dt = last.stamp - before.stamp;
+	return {
+		last.T_odom_body.linear().transpose() *
+			(last.T_odom_body.translation() - before.T_odom_body.translation()) / dt,
+		logSO3(T_before_last.linear()) / dt};
+}
+
 TPoseEstimate CRecordedOdometry::now() const
 {
 	return {

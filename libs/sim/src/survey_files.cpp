@@ -2,13 +2,13 @@
 #include <posidonia/base/files.h>
 #include <posidonia/obs/rawlog_writer.h>
 #include <posidonia/obs/register_observations.h>
+#include <posidonia/sim/picture_files.h>
 #include <posidonia/sim/survey_simulator.h>
 
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
 namespace posidonia
@@ -17,27 +17,12 @@ using mrpt::obs::CObservationStereoImages;
 
 namespace
 {
-/** The pictures of one pair as PNG files; returns their bytes. */
+/** The pictures of one pair; returns their bytes. */
 uint64_t writePictures(
 	const TGreyPair& pictures, const CObservationStereoImages& pair, const std::string& folder)
 {
-	// Sensor noise does not compress by repetition: entropy coding alone is as small and several times
-	// faster.
-	const std::vector<int> fast{
-		cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY};
-	uint64_t bytes = 0;
-	for (const auto& [picture, image] :
-		 {std::pair(&pictures.left, &pair.imageLeft), std::pair(&pictures.right, &pair.imageRight)})
-	{
-		std::vector<uint8_t> png;
-		cv::imencode(".png", *picture, png, fast);
-		const std::string path = folder + "/" + image->getExternalStorageFile();
-		writeFileWhole(path, [&](std::ostream& out) {
-			out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-		});
-		bytes += png.size();
-	}
-	return bytes;
+	return writePicture(folder + "/" + pair.imageLeft.getExternalStorageFile(), pictures.left) +
+		   writePicture(folder + "/" + pair.imageRight.getExternalStorageFile(), pictures.right);
 }
 
 /** job(0) ... job(n - 1) on `threads` threads; the first exception is thrown again here. */

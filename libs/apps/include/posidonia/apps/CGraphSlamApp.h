@@ -3,8 +3,7 @@
 #include <posidonia/apps/replay_command.h>
 #include <posidonia/apps/run_folder.h>
 #include <posidonia/apps/run_texts.h>
-#include <posidonia/apps/scoring.h>
-#include <posidonia/graphslam/stereo_slam.h>
+#include <posidonia/apps/slam_outputs.h>
 #include <posidonia/obs/rawlog_reader.h>
 
 #include <memory>
@@ -26,8 +25,7 @@ class CGraphSlamApp
 	struct TResults
 	{
 		TRunTrajectories trajectories;
-		int nodes{0}, sequential_edges{0}, roi_edges{0};
-		double chi2{0}, dijkstra_chi2{0};
+		TSlamCounts counts;
 		TMetrics metrics;
 		std::string folder;
 	};
@@ -36,9 +34,7 @@ class CGraphSlamApp
 
    private:
 	void replay(CStereoSlam& slam, CRawlogReader& reader);
-	void remember(const CStereoSlam& slam);
 	void collect(const CStereoSlam& slam, const CRawlogReader& reader);
-	void writeResults(const CStereoSlam& slam);
 	void score(const CStereoSlam& slam);
 	void logSummary(const CStereoSlam& slam, const CRawlogReader& reader, double seconds);
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <posidonia/apps/mission/closed_loop_options.h>
 #include <posidonia/base/ini_file.h>
+#include <posidonia/control/autopilot.h>
+#include <posidonia/control/safe_correction.h>
 #include <posidonia/eval/evaluate_run.h>
 #include <posidonia/eval/loop_evaluation.h>
 #include <posidonia/graphslam/slam_parts.h>
@@ -8,6 +11,7 @@
 #include <posidonia/nav/odometry_corruptor.h>
 #include <posidonia/nav/recorded_odometry.h>
 #include <posidonia/obs/sensor_suite.h>
+#include <posidonia/sim/faults.h>
 #include <posidonia/sim/simulation_options.h>
 
 namespace posidonia
@@ -54,6 +58,12 @@ struct TExperiment
 	TEvaluationOptions evaluation;
 	TLoopEvaluationOptions loop_evaluation;
 	TReportOptions report;
+	TClosedLoopOptions closed_loop;
+	TSlamLatencyOptions latency;
+	TForcedCorrectionOptions forced_correction;
+	TControllerPoseOptions controller_pose;
+	TAutopilotOptions autopilot;
+	std::vector<TFaultOptions> faults;
 
 	/** Loads every section and overrides `sensors` by the sections [Sensor.<label>]. Throws CError. */
 	static TExperiment load(CIniFile& ini, TSensorSuite& sensors);

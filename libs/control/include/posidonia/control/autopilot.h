@@ -4,7 +4,7 @@
 #include <posidonia/control/current_observer.h>
 #include <posidonia/control/mission.h>
 #include <posidonia/control/mission_runner.h>
-#include <posidonia/control/navigation_state.h>
+#include <posidonia/control/control_state.h>
 #include <posidonia/control/pose_controller.h>
 #include <posidonia/control/safety_supervisor.h>
 #include <posidonia/control/velocity_controller.h>
@@ -71,22 +71,22 @@ class CAutopilot
 
 	/** One step at health.stamp. `navigation` is the last one known, fresh or not. The mission starts at the
 	 * first call with valid navigation. */
-	TAutopilotOutput step(const TNavigationState& navigation, const TVehicleHealth& health);
+	TAutopilotOutput step(const TControlState& navigation, const TVehicleHealth& health);
 
 	const TMission& mission() const { return m_runner.mission(); }
 
    private:
-	void supervise(const TNavigationState& navigation, const TVehicleHealth& health, TAutopilotOutput& out);
+	void supervise(const TControlState& navigation, const TVehicleHealth& health, TAutopilotOutput& out);
 	/** By priority: the mission, what replaces it after an abort, the climb from the floor. */
-	void request(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
-	void requestMission(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
+	void request(const TControlState& navigation, double dt, TAutopilotOutput& out);
+	void requestMission(const TControlState& navigation, double dt, TAutopilotOutput& out);
 	void requestAbort(double dt, TAutopilotOutput& out);
-	void control(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
-	void observeCurrent(const TNavigationState& navigation, double dt, TAutopilotOutput& out);
+	void control(const TControlState& navigation, double dt, TAutopilotOutput& out);
+	void observeCurrent(const TControlState& navigation, double dt, TAutopilotOutput& out);
 	void surfaceBlindly(double now, TAutopilotOutput& out);
 	/** Nothing is known for a moment: the thrusters stop. */
 	void pause();
-	bool finished(const TNavigationState& navigation, bool fresh) const;
+	bool finished(const TControlState& navigation, bool fresh) const;
 
 	TAutopilotOptions m_options;
 	CMissionRunner m_runner;

@@ -2,7 +2,7 @@
 
 #include <posidonia/control/guidance_options.h>
 #include <posidonia/control/mission.h>
-#include <posidonia/control/navigation_state.h>
+#include <posidonia/control/control_state.h>
 
 namespace posidonia
 {
@@ -15,11 +15,11 @@ class CDepthGuidance
 	explicit CDepthGuidance(const TGuidanceOptions& options) : m_options(options) {}
 
 	/** [m], down. */
-	double target(const TStep& step, const TNavigationState& navigation);
+	double target(const TStep& step, const TControlState& navigation);
 
    private:
 	/** Altitude now: measured, extrapolated or supposed [m]. */
-	double altitude(const TNavigationState& navigation);
+	double altitude(const TControlState& navigation);
 
 	TGuidanceOptions m_options;
 	double m_stamp{-1e9};			   ///< Of the last altitude [s]

@@ -3,7 +3,7 @@
 #include <posidonia/control/guidance_command.h>
 #include <posidonia/control/leg_progress.h>
 #include <posidonia/control/line_of_sight.h>
-#include <posidonia/control/navigation_state.h>
+#include <posidonia/control/control_state.h>
 #include <posidonia/control/station_keeping.h>
 
 namespace posidonia
@@ -21,24 +21,24 @@ class CLegGuidance
 	/** From `start` to `end` [m]; `heading`: the heading reference now [rad]. */
 	void begin(
 		const Eigen::Vector2d& start, const Eigen::Vector2d& end, double speed,
-		const TNavigationState& navigation, const Eigen::Vector2d& current, double heading);
+		const TControlState& navigation, const Eigen::Vector2d& current, double heading);
 
 	/** Heading reference and wished surge (not yet ramped); `dt` [s]. */
-	TReference update(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
+	TReference update(const TControlState& navigation, const Eigen::Vector2d& current, double dt);
 	double surge() const { return m_surge; }
 	const TLegProgress& progress() const { return m_progress; }
 
    private:
 	void locate(const Eigen::Vector2d& position);
 	/** Of the cross-track error, from the velocity: a correction of the pose is not in it [m/s]. */
-	double crossRate(const TNavigationState& navigation) const;
+	double crossRate(const TControlState& navigation) const;
 	/** Velocity over ground [m/s] at an angle off the line, map. */
 	Eigen::Vector2d along(double course_offset, double speed) const;
 	/** Speed that still stops at the end of the leg [m/s]. */
 	double speed() const;
-	TReference turn(const TNavigationState& navigation);
-	TReference run(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
-	TReference approach(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
+	TReference turn(const TControlState& navigation);
+	TReference run(const TControlState& navigation, const Eigen::Vector2d& current, double dt);
+	TReference approach(const TControlState& navigation, const Eigen::Vector2d& current, double dt);
 	/** Bow, off the line, for a course off the line: with the crab angle for the leg's full speed, so that it
 	 * does not swing up-current while the vehicle slows down [rad]. */
 	double crabbed(double course_offset, const Eigen::Vector2d& current) const;

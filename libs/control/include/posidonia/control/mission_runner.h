@@ -18,7 +18,7 @@ class CMissionRunner
 
 	/** Appends to `events` what happened. */
 	TGuidanceCommand update(
-		const TNavigationState& navigation, const Eigen::Vector2d& current, double dt,
+		const TControlState& navigation, const Eigen::Vector2d& current, double dt,
 		std::vector<TMissionEvent>& events);
 
 	/** Index of the present step; size() of the steps when the mission is done. */
@@ -31,10 +31,10 @@ class CMissionRunner
 
    private:
 	void begin(
-		const TNavigationState& navigation, const Eigen::Vector2d& current,
+		const TControlState& navigation, const Eigen::Vector2d& current,
 		std::vector<TMissionEvent>& events);
 	void end(
-		EMissionEvent how, const TNavigationState& navigation, const Eigen::Vector2d& current,
+		EMissionEvent how, const TControlState& navigation, const Eigen::Vector2d& current,
 		std::vector<TMissionEvent>& events);
 
 	TMission m_mission;

@@ -3,7 +3,7 @@
 #include <posidonia/base/options.h>
 #include <posidonia/control/commands.h>
 #include <posidonia/control/guidance_command.h>
-#include <posidonia/control/navigation_state.h>
+#include <posidonia/control/control_state.h>
 
 namespace posidonia
 {
@@ -38,7 +38,7 @@ class CPoseController
 	explicit CPoseController(const TPoseControlOptions& options) : m_options(options) {}
 
 	/** Before any limit. */
-	TVelocityCommand command(const TGuidanceCommand& guidance, const TNavigationState& navigation) const;
+	TVelocityCommand command(const TGuidanceCommand& guidance, const TControlState& navigation) const;
 	/** Saturated, and its change since the last call bounded; `dt` [s]. */
 	TVelocityCommand limited(const TVelocityCommand& wanted, double dt);
 	/** The next limited() starts from here. */

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <posidonia/control/navigation_state.h>
+#include <posidonia/control/control_state.h>
 #include <posidonia/control/safety_options.h>
 
 #include <string>
@@ -23,7 +23,7 @@ std::string toString(ESafetyLevel level);
 /** What a rule looks at. */
 struct TSafetyInput
 {
-	const TNavigationState& navigation;	 ///< The last one; valid only when health says that it is fresh
+	const TControlState& navigation;	 ///< The last one; valid only when health says that it is fresh
 	const TVehicleHealth& health;
 	double mission_timeout{3600};  ///< [s]
 	double emergency_for{0};	   ///< Since the emergency surfacing began, 0 before [s]
@@ -41,7 +41,7 @@ struct TSafetyRule
 };
 
 /** Is there a pose that may be used? */
-bool isFresh(const TNavigationState& navigation, const TVehicleHealth& health, const TSafetyOptions& limits);
+bool isFresh(const TControlState& navigation, const TVehicleHealth& health, const TSafetyOptions& limits);
 
 /** The rule table (COLA2's safe_depth_altitude, virtual cage and supervisor rules; libs/control/README.md).
  */
@@ -60,7 +60,7 @@ class CSafetySupervisor
 {
    public:
 	CSafetySupervisor(const TSafetyOptions& options, double mission_timeout);
-	TSafetyDecision update(const TNavigationState& navigation, const TVehicleHealth& health);
+	TSafetyDecision update(const TControlState& navigation, const TVehicleHealth& health);
 	/** Raises the level from outside (a step that timed out, an operator). */
 	void raise(ESafetyLevel level);
 	ESafetyLevel level() const { return m_latched; }

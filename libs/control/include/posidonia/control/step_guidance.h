@@ -19,13 +19,13 @@ class CStepGuidance
 
 	/** `before`: end of the step before, if it had one, north east [m]. */
 	void begin(
-		const TStep& step, const std::optional<Eigen::Vector2d>& before, const TNavigationState& navigation,
+		const TStep& step, const std::optional<Eigen::Vector2d>& before, const TControlState& navigation,
 		const Eigen::Vector2d& current);
 
-	TGuidanceCommand update(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
+	TGuidanceCommand update(const TControlState& navigation, const Eigen::Vector2d& current, double dt);
 
 	/** Is the step's end reached? For HOLD: has its time passed? */
-	bool reached(const TNavigationState& navigation) const;
+	bool reached(const TControlState& navigation) const;
 
 	/** NONE when the step is no leg. */
 	TLegProgress progress() const;
@@ -35,7 +35,7 @@ class CStepGuidance
 	double climb() const { return m_climb; }
 
    private:
-	void keepStation(const TNavigationState& navigation, const Eigen::Vector2d& current, double dt);
+	void keepStation(const TControlState& navigation, const Eigen::Vector2d& current, double dt);
 	void rampSurge(double wanted, double dt);
 
 	TGuidanceOptions m_options;

@@ -38,6 +38,10 @@ class CStereoSlam
 
 	/** Map and odometry now; T_map_body = T_map_odom T_odom_body with T_map_odom from the last node. */
 	TCausalPose now() const;
+	/** Covariance of now().T_map_body over its own frame's (rho, phi): the root's, the graph's from the root
+	 * to the last node, the odometry's since. Priors, which hold the graph to the map, make the real one
+	 * smaller. */
+	Matrix6d covariance() const;
 	/** Was a node made by the last observation? */
 	bool addedNode() const;
 

@@ -29,7 +29,7 @@ class CCola2Odometry : public COdometrySource
 	TPoseEstimate sinceClone() const override;
 	TPoseEstimate now() const override;
 
-	Eigen::Vector3d velocity() const { return m_nav.state().tail<3>(); }
+	TBodyMotion motion() const override { return {m_nav.state().tail<3>(), m_rate}; }
 	const CCola2EKF& navigationFilter() const { return m_nav; }
 	TNavStatistics statistics() const;
 

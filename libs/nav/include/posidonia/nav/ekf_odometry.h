@@ -30,9 +30,8 @@ class CEkfOdometry : public COdometrySource
 	TDeclaredDrift declaredDrift() const override;
 	std::vector<TRevisedEdge> takeRevisedEdges() override;
 
-	/** Velocity over ground in body axes [m/s] and rate without bias [rad/s], for controllers. */
-	Eigen::Vector3d velocity() const { return present().velocity(); }
-	Eigen::Vector3d rate() const { return present().rate(); }
+	/** The rate is without bias. */
+	TBodyMotion motion() const override { return {present().velocity(), present().rate()}; }
 	const CNavigator& navigator() const { return m_navigator; }
 	const CNavigationEKF& navigationFilter() const { return m_navigator.navigationFilter(); }
 	const CNavigationEKF& edgeFilter() const { return m_navigator.edgeFilter(); }

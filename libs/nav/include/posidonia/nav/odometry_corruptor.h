@@ -67,6 +67,8 @@ class COdometryCorruptor : public COdometrySource
 	 * source's edge; its covariance gains the declared sigma times the edge's way, squared. */
 	TPoseEstimate sinceClone() const override;
 	TPoseEstimate now() const override;
+	/** The source's: the drift is far slower than a controller's noise. */
+	TBodyMotion motion() const override { return m_source->motion(); }
 	TDeclaredDrift declaredDrift() const override;
 	TUnaryMeasurements unary() const override { return m_source->unary(); }
 

@@ -58,6 +58,13 @@ struct TUnaryMeasurements
 	std::optional<THorizontalMeasurement> position;	 ///< From GPS
 };
 
+/** How the body moves over ground, in body axes. */
+struct TBodyMotion
+{
+	Eigen::Vector3d velocity{0, 0, 0};	///< [m/s]
+	Eigen::Vector3d rate{0, 0, 0};		///< [rad/s]
+};
+
 /** An edge that late observations changed after it was handed out. */
 struct TRevisedEdge
 {
@@ -87,6 +94,8 @@ class COdometrySource
 	virtual TPoseEstimate sinceClone() const = 0;
 	/** T_odom_body; the covariance may use absolute measurements. */
 	virtual TPoseEstimate now() const = 0;
+	/** At the present, for controllers. */
+	virtual TBodyMotion motion() const = 0;
 	virtual TDeclaredDrift declaredDrift() const { return {}; }
 	virtual TUnaryMeasurements unary() const { return {}; }
 	/** Edges, handed out before, that late observations have changed since the last call. */

@@ -52,6 +52,8 @@ class CRecordedOdometry : public COdometrySource
 	void clone() override;
 	TPoseEstimate sinceClone() const override;
 	TPoseEstimate now() const override;
+	/** Between the last two poses; zero before the second. */
+	TBodyMotion motion() const override;
 
 	/** Poses dropped because their stamp was not after the last one, and pairs from before the history. */
 	size_t late() const { return m_late; }

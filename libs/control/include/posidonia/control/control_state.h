@@ -8,7 +8,7 @@ namespace posidonia
 {
 /** What the controllers know of the vehicle, whoever says it (filter, SLAM, or the simulator itself).
  * Map is north-east-down, body forward-starboard-down. */
-struct TNavigationState
+struct TControlState
 {
 	double stamp{0};  ///< UTC [s]
 	Eigen::Isometry3d T_map_body{Eigen::Isometry3d::Identity()};
@@ -32,7 +32,7 @@ struct TNavigationState
 struct TVehicleHealth
 {
 	double stamp{0};		   ///< Now, by the vehicle's clock [s]; goes on when the navigation does not
-	double navigation_age{0};  ///< Since the last valid TNavigationState; 0 before the first [s]
+	double navigation_age{0};  ///< Since the last valid TControlState; 0 before the first [s]
 	double imu_age{0};
 	double dvl_age{0};		 ///< Since the last DVL message, good or not
 	double good_dvl_age{0};	 ///< Since the last DVL velocity that could be used

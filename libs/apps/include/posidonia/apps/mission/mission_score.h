@@ -1,0 +1,31 @@
+#pragma once
+
+#include <posidonia/apps/mission/closed_loop.h>
+#include <posidonia/eval/metrics.h>
+
+#include <string>
+#include <vector>
+
+namespace posidonia
+{
+/** Rows "mission.*" of what a closed loop did, by the truth.
+ *
+ * - estimation_error: 3D distance between the pose that the controllers used and the true one, at each step;
+ * - cross_track: true horizontal distance from the line of the leg, while it is run along (not while turning
+ *   on the spot);
+ * - end_error: true horizontal distance from the mission's last point while station is kept there;
+ * - yaw_rate_change, surge_change: largest minus smallest command, before the limiters, in the 4 s round a
+ *   step; the 99th percentile and the largest of all steps. */
+TMetrics missionMetrics(const std::vector<TControlStep>& steps, const TMission& mission);
+
+/** How the controllers' pose took a jump of the map: rows "jump.*". Empty without one.
+ * @param time of the jump [s] */
+TMetrics jumpMetrics(const std::vector<TControlStep>& steps, double time);
+
+/** control.csv: a row each step. */
+std::string controlCsv(const std::vector<TControlStep>& steps);
+/** events.csv: t,kind,text. */
+std::string eventsCsv(const std::vector<TControlStep>& steps, double start_time);
+/** A few lines for the terminal. */
+std::string missionSummary(const TMetrics& rows);
+}  // namespace posidonia

@@ -1,0 +1,191 @@
+#include <posidonia/apps/CMissionApp.h>
+#include <posidonia/apps/mission/realtime_pacer.h>
+#include <posidonia/apps/progress.h>
+#include <posidonia/apps/run_texts.h>
+#include <posidonia/base/error.h>
+#include <posidonia/base/files.h>
+#include <posidonia/eval/trajectory_io.h>
+#include <posidonia/obs/geodesy.h>
+
+#include <iostream>
+
+namespace posidonia
+{
+bool CMissionApp::initialize(int argc, const char* const* argv)
+{
+	CCommandLine line(
+		name,
+		"Runs a mission in closed loop: the vehicle steers by its own SLAM pose through a simulated sea. "
+		"Writes\n"
+		"a run folder with the rawlog of everything measured, what was commanded, the graph and the errors.\n"
+		"Example: auv-mission -c ini/paper-exp2-closed.ini");
+	TCLAP::SwitchArg realtime(
+		"", "realtime", "Keep to the clock, and count the missed deadlines", line.cmd());
+	if (!line.parse(argc, argv)) return false;
+
+	CIniFile ini = line.ini();
+	m_sensors = TSensorSuite::sparus2();
+	params = TExperiment::load(ini, m_sensors);
+	m_config = ini.dump();
+	if (line.wantsConfigDump()) {
+		std::cout << m_config;
+		return false;
+	}
+	params.simulation.floor.image = line.besideConfig(params.simulation.floor.image);
+	if (params.closed_loop.mission.empty())
+		throw CError("[ClosedLoop] mission", "is missing", "name a mission file");
+	loadMissionFile(line.besideConfig(params.closed_loop.mission));
+	m_verbosity = line.verbosity();
+	m_realtime = realtime.getValue();
+	m_name = line.configName();
+	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_name);
+	return true;
+}
+
+void CMissionApp::loadMissionFile(const std::string& path)
+{
+	CIniFile file = CIniFile::fromFile(path);
+	const auto& world = params.simulation.world;
+	m_mission = loadMission(file, [&](double latitude, double longitude) {
+		return Eigen::Vector2d(nedFromGeodetic({latitude, longitude, 0}, world).head<2>());
+	});
+	file.refuseUnknown();
+	m_mission_text = file.dump();
+	const auto& start = params.simulation.route.start;
+	checkMission(m_mission, params.autopilot.safety, {start[0], start[1]});
+}
+
+/** Everything that runs, in the order of its dependencies. */
+struct CMissionApp::TLoop
+{
+	TLoop(const CMissionApp& app, const TExperiment& e, const CRunFolder& folder)
+		: slam(
+			  e.slam, app.m_sensors, e.makeOdometry(app.m_sensors),
+			  std::make_unique<CStereoImageLoader>(folder.file("mission.rawlog")), folder.file("config.ini")),
+		  computer(
+			  {e.autopilot, e.controller_pose, e.latency.latency, e.closed_loop.endurance * 3600,
+			   e.closed_loop.pose_source != "odometry"},
+			  app.m_mission, slam, e.slam.node.distance, e.simulation.run.start_time),
+		  vehicle(e.simulation, app.m_sensors, e.faults),
+		  recorder(folder.file("mission"), app.m_sensors),
+		  loop(
+			  {e.closed_loop, e.forced_correction, e.simulation.run.start_time,
+			   e.simulation.run.save_images == "all"},
+			  vehicle, computer, recorder)
+	{
+	}
+	CStereoSlam slam;
+	CVehicleComputer computer;
+	CSimulatedVehicle vehicle;
+	CMissionRecorder recorder;
+	CClosedLoop loop;
+	TSilencedAtEnd slam_silenced{slam.timer()}, loop_silenced{loop.timer()};
+};
+
+void CMissionApp::run()
+{
+	m_results = {};
+	m_results.folder = m_folder->path();
+	m_folder->write("config.ini", m_config);
+	m_folder->write("mission.ini", m_mission_text);
+	writeSensors(m_folder->file("sensors.ini"), m_sensors);
+	TLoop loop(*this, params, *m_folder);
+	fly(loop);
+	loop.recorder.finish();
+	m_results.rawlog = loop.recorder.rawlog();
+	loop.slam.makeExact();
+	m_results.trajectories.nodes = loop.slam.nodes();
+	m_results.counts = countsOf(loop.slam);
+	writeResults(loop);
+	score();
+	logSummary(loop);
+	m_folder->finish();
+}
+
+namespace
+{
+std::string progressText(const TControlStep& step, size_t steps)
+{
+	const double error =
+		(step.feedback.navigation.T_map_body.translation() - step.truth.T_map_body.translation()).norm();
+	return mrpt::format(
+		"%.0f s, step %zu of %zu, pose error %.3f m, %d loops", step.t, std::min(step.output.step + 1, steps),
+		steps, error, step.loops);
+}
+}  // namespace
+
+void CMissionApp::fly(TLoop& loop)
+{
+	const auto start = std::chrono::steady_clock::now();  // for the log alone
+	CProgress progress("mission", m_verbosity == 0);
+	CRealtimePacer pacer(m_realtime, 1 / params.closed_loop.control_rate);
+	const double steps = static_cast<double>(m_mission.steps.size());
+	loop.loop.run([&](const TControlStep& step) {
+		m_results.steps.push_back(step);
+		rememberCausal(loop.slam, m_results.trajectories);
+		progress.update(
+			std::min(1.0, static_cast<double>(step.output.step) / steps),
+			progressText(step, m_mission.steps.size()));
+		pacer.waitFor(step.t);
+	});
+	m_results.missed_deadlines = pacer.missed();
+	m_results.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+	if (m_realtime)
+		m_folder->log(
+			mrpt::format(
+				"%d of %zu deadlines missed, worst %.3f s late", pacer.missed(), m_results.steps.size(),
+				pacer.worst()),
+			m_verbosity);
+}
+
+namespace
+{
+TTrajectory controllerPoses(const std::vector<TControlStep>& steps)
+{
+	TTrajectory poses;
+	for (const TControlStep& step : steps)
+		if (step.feedback.navigation.valid)
+			poses.push_back({step.feedback.navigation.stamp, step.feedback.navigation.T_map_body});
+	return poses;
+}
+}  // namespace
+
+void CMissionApp::writeResults(TLoop& loop)
+{
+	writeSlamFiles(*m_folder, loop.slam, m_results.trajectories);
+	writeTum(m_folder->file("control.tum"), controllerPoses(m_results.steps));
+	m_folder->write("control.csv", controlCsv(m_results.steps));
+	m_folder->write("events.csv", eventsCsv(m_results.steps, params.simulation.run.start_time));
+	m_folder->write("loop_timings.csv", timingsCsv(loop.loop.timer(), m_results.counts.nodes));
+}
+
+void CMissionApp::score()
+{
+	const auto append = [&](const TMetrics& rows) {
+		m_results.metrics.insert(m_results.metrics.end(), rows.begin(), rows.end());
+	};
+	append(m_results.counts.metrics());
+	append(missionMetrics(m_results.steps, m_mission));
+	append(jumpMetrics(m_results.steps, params.forced_correction.time));
+	if (m_results.counts.nodes > 0) {
+		const TScore score = scoreRun(
+			scoringOf(params, m_sensors), m_results.trajectories, m_folder->file("loops.csv"),
+			m_folder->file("mission.gt.tum"), *m_folder);
+		append(score.metrics);
+		if (!score.text.empty()) m_folder->log(score.text, m_verbosity);
+		m_folder->log(scoreSummary(score.metrics), m_verbosity);
+	}
+	m_folder->log(missionSummary(m_results.metrics), m_verbosity);
+	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
+}
+
+void CMissionApp::logSummary(TLoop& loop)
+{
+	m_folder->log(versionText(), m_verbosity - 1);
+	m_folder->log(m_results.counts.text(), m_verbosity);
+	m_folder->log(candidateCounts(loop.slam.map().candidates), m_verbosity);
+	m_folder->log(speedText(m_results.steps.back().t, m_results.seconds), m_verbosity);
+	m_folder->log(navigationText(loop.slam.odometry()), m_verbosity - 1);
+	m_folder->log("run folder: " + m_folder->path(), m_verbosity);
+}
+}  // namespace posidonia

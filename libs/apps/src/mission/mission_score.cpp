@@ -1,0 +1,186 @@
+#include <mrpt/core/format.h>
+#include <posidonia/apps/mission/mission_score.h>
+#include <posidonia/eval/statistics.h>
+
+#include <algorithm>
+
+namespace posidonia
+{
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace
+{
+Vector3d truePosition(const TControlStep& step)
+{
+	return step.truth.T_map_body.translation();
+}
+
+double crossTrack(const TControlStep& step)
+{
+	const TLegProgress& leg = step.output.leg;
+	const Vector2d along = (leg.end - leg.start).normalized();
+	const Vector2d off = truePosition(step).head<2>() - leg.start;
+	return along.x() * off.y() - along.y() * off.x();
+}
+
+bool runsAlong(const TControlStep& step)
+{
+	return step.output.leg.phase == ELegPhase::RUN || step.output.leg.phase == ELegPhase::APPROACH;
+}
+
+/** `q` of 1 of the values are not above it. */
+double quantile(std::vector<double> values, double q)
+{
+	if (values.empty()) return 0;
+	const auto nth = values.begin() + static_cast<long>(q * static_cast<double>(values.size() - 1));
+	std::nth_element(values.begin(), nth, values.end());
+	return *nth;
+}
+
+/** Largest minus smallest value in the window of +- `half` steps round each. */
+std::vector<double> ranges(const std::vector<double>& values, size_t half)
+{
+	std::vector<double> out;
+	for (size_t k = half; k + half < values.size(); k++) {
+		const auto [low, high] =
+			std::minmax_element(values.begin() + long(k - half), values.begin() + long(k + half) + 1);
+		out.push_back(*high - *low);
+	}
+	return out;
+}
+
+template <class F>
+std::vector<double> valuesOf(const std::vector<TControlStep>& steps, const F& value)
+{
+	std::vector<double> out;
+	for (const TControlStep& step : steps)
+		out.push_back(value(step));
+	return out;
+}
+
+void addErrors(TMetrics& rows, const std::string& name, const std::vector<double>& values)
+{
+	const TStatistics s = statistics(values);
+	rows.push_back({"mission." + name + ".mean", "m", s.mean});
+	rows.push_back({"mission." + name + ".max", "m", s.max});
+}
+
+void addChanges(
+	TMetrics& rows, const std::string& name, const std::string& unit, const std::vector<double>& values)
+{
+	rows.push_back({"mission." + name + ".p99", unit, quantile(values, 0.99)});
+	rows.push_back({"mission." + name + ".max", unit, quantile(values, 1)});
+}
+
+double wayOf(const std::vector<TControlStep>& steps)
+{
+	double way = 0;
+	for (size_t k = 1; k < steps.size(); k++)
+		way += (truePosition(steps[k]) - truePosition(steps[k - 1])).norm();
+	return way;
+}
+}  // namespace
+
+TMetrics missionMetrics(const std::vector<TControlStep>& steps, const TMission& mission)
+{
+	std::vector<double> estimation, cross, depth, end, speed, altitude;
+	for (const TControlStep& step : steps) {
+		if (step.feedback.navigation.valid)
+			estimation.push_back(
+				(step.feedback.navigation.T_map_body.translation() - truePosition(step)).norm());
+		if (runsAlong(step)) {
+			cross.push_back(std::abs(crossTrack(step)));
+			speed.push_back(step.truth.v_map.head<2>().norm());
+			altitude.push_back(step.true_altitude);
+			depth.push_back(std::abs(step.output.depth_reference - truePosition(step).z()));
+		}
+		const bool last = step.output.step + 1 == mission.steps.size();
+		if (last && mission.steps.back().kind == EStepKind::HOLD)
+			end.push_back((truePosition(step).head<2>() - mission.steps.back().end).norm());
+	}
+	TMetrics rows;
+	rows.push_back({"mission.duration", "s", steps.back().t});
+	rows.push_back({"mission.path_length", "m", wayOf(steps)});
+	rows.push_back({"mission.leg_speed", "m/s", statistics(speed).median});
+	rows.push_back({"mission.leg_altitude", "m", statistics(altitude).mean});
+	addErrors(rows, "estimation_error", estimation);
+	addErrors(rows, "cross_track", cross);
+	addErrors(rows, "depth_error", depth);
+	addErrors(rows, "end_error", end);
+	const double period = steps.size() > 1 ? steps[1].t - steps[0].t : 1;
+	const auto half = static_cast<size_t>(std::lround(2 / period));
+	addChanges(
+		rows, "yaw_rate_change", "rad/s",
+		ranges(valuesOf(steps, [](const auto& s) { return s.output.unlimited.yaw_rate; }), half));
+	addChanges(
+		rows, "surge_change", "m/s",
+		ranges(valuesOf(steps, [](const auto& s) { return s.output.unlimited.surge; }), half));
+	return rows;
+}
+
+TMetrics jumpMetrics(const std::vector<TControlStep>& steps, double time)
+{
+	const auto jump = std::find_if(steps.begin(), steps.end(), [&](const auto& s) { return s.t >= time; });
+	if (time <= 0 || jump == steps.end()) return {};
+	const auto apart = [](const TControlStep& s) {
+		return Eigen::Isometry3d(s.feedback.navigation.T_map_body.inverse() * s.feedback.T_map_body);
+	};
+	const auto settled =
+		std::find_if(jump + 1, steps.end(), [](const auto& s) { return !s.feedback.correcting; });
+	const double until = settled == steps.end() ? std::numeric_limits<double>::infinity() : settled->t;
+	return {
+		{"jump.distance", "m", apart(*jump).translation().norm()},
+		{"jump.angle", "rad", logSO3(apart(*jump).linear()).norm()},
+		{"jump.settled_after", "s", until - jump->t}};
+}
+
+std::string controlCsv(const std::vector<TControlStep>& steps)
+{
+	std::string csv =
+		"t,true_n,true_e,true_d,true_yaw,n,e,d,yaw,correcting,odom_n,odom_e,odom_d,step,phase,cross_track,"
+		"heading_ref,depth_ref,surge_cmd,heave_cmd,yaw_rate_cmd,surge_lim,heave_lim,yaw_rate_lim,X,Z,N,"
+		"starboard,port,heave,level\n";
+	for (const TControlStep& s : steps) {
+		const Vector3d p = truePosition(s), e = s.feedback.navigation.T_map_body.translation(),
+					   o = s.T_odom_body.translation();
+		const TAutopilotOutput& out = s.output;
+		csv += mrpt::format(
+			"%.2f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d,%.4f,%.4f,%.4f,%zu,%d,%.4f,", s.t, p.x(), p.y(),
+			p.z(), yawPitchRoll(s.truth.T_map_body.linear())[0], e.x(), e.y(), e.z(),
+			s.feedback.navigation.heading(), int(s.feedback.correcting), o.x(), o.y(), o.z(), out.step,
+			int(out.leg.phase), runsAlong(s) ? crossTrack(s) : 0.0);
+		csv += mrpt::format(
+			"%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%s\n",
+			out.heading_reference, out.depth_reference, out.unlimited.surge, out.unlimited.heave,
+			out.unlimited.yaw_rate, out.limited.surge, out.limited.heave, out.limited.yaw_rate,
+			out.achieved.X, out.achieved.Z, out.achieved.N, out.set_points.starboard, out.set_points.port,
+			out.set_points.heave, toString(out.level).c_str());
+	}
+	return csv;
+}
+
+std::string eventsCsv(const std::vector<TControlStep>& steps, double start_time)
+{
+	std::string csv = "t,kind,text\n";
+	for (const TControlStep& step : steps)
+		for (const TMissionEvent& event : step.output.events)
+			csv += mrpt::format(
+				"%.2f,%s,\"%s\"\n", event.stamp - start_time, toString(event.kind).c_str(),
+				event.text.c_str());
+	return csv;
+}
+
+std::string missionSummary(const TMetrics& rows)
+{
+	const auto value = [&](const char* name) { return metric(rows, std::string("mission.") + name); };
+	return mrpt::format(
+		"mission: %.0f s, %.1f m, legs at %.2f m/s and %.2f m above the floor\n"
+		"pose that the controllers used: mean 3D error %.4f m, worst %.4f m\n"
+		"true cross-track error: mean %.4f m, worst %.4f m; depth: mean %.4f m\n"
+		"true distance from the last point, keeping station: mean %.4f m, worst %.4f m",
+		value("duration"), value("path_length"), value("leg_speed"), value("leg_altitude"),
+		value("estimation_error.mean"), value("estimation_error.max"), value("cross_track.mean"),
+		value("cross_track.max"), value("depth_error.mean"), value("end_error.mean"), value("end_error.max"));
+}
+}  // namespace posidonia
