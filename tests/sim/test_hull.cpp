@@ -64,6 +64,24 @@ TEST(Hull, MassMatricesAreSymmetricAndPositive)
 	}
 }
 
+/** Water held by something at the stern, x ahead, moves with the speed there: v + x r and w - x q. */
+TEST(Hull, SternsWaterCouplesSwayWithYawAndHeaveWithPitch)
+{
+	const double x = -0.6, held = 5;
+	TVehicleOptions with, without;
+	without.added_mass_sway_yaw = without.added_mass_heave_pitch = 0;
+	with.added_mass_sway_yaw = held * x, with.added_mass_heave_pitch = -held * x;
+	for (const int i : {1, 2})
+		with.added_mass[i] += held, with.added_mass[i + 3] += held * x * x;	 // sway, heave; pitch, yaw
+	std::mt19937 rng(5);
+	const Matrix6d more = CHull(with, kNoFloor).addedMass() - CHull(without, kNoFloor).addedMass();
+	for (int i = 0; i < 10; i++) {
+		const Vector6d nu = randomVelocity(rng);
+		const double sway = nu[1] + x * nu[5], heave = nu[2] - x * nu[4];
+		EXPECT_NEAR(nu.dot(more * nu), held * (sway * sway + heave * heave), 1e-9) << i;
+	}
+}
+
 /** Kinetic energy of a cloud of points is nu' M nu / 2: an own way to the matrix. */
 TEST(Hull, RigidBodyMassIsThatOfItsPoints)
 {

@@ -115,9 +115,10 @@ TEST(VehicleDynamics, TopSpeedIsNearTwoMetresASecond)
 TEST(VehicleDynamics, CruiseAtThePapersSpeedTakesThreeToSixNewtons)
 {
 	// Drag by the damping's law; then the run, whose thrust is that of the set-points.
-	const double drag = (10 + 36 * 0.3) * 0.3;
+	const TVehicleOptions o;
+	const double drag = (o.linear_damping[0] + o.quadratic_damping[0] * 0.3) * 0.3;
 	EXPECT_GT(drag, 3);
-	EXPECT_LT(drag, 6.5);
+	EXPECT_LT(drag, 6);
 	CVehicleDynamics vehicle = makeVehicle(50);
 	const double set_point = std::sqrt(drag / 2 / 71.5);
 	vehicle.setSetPoints({set_point, set_point, 0});
@@ -223,6 +224,20 @@ TEST(VehicleDynamics, UniformCurrentIsAMovingFrame)
 			EXPECT_LT((a.omega_body - b.omega_body).norm(), 1e-8) << "run " << run << ", t = " << t;
 			EXPECT_LT((a.a_map - b.a_map).norm(), 1e-8) << "run " << run << ", t = " << t;
 		}
+	}
+}
+
+TEST(VehicleDynamics, GustsGoOnAsTheCurrentSays)
+{
+	TCurrentOptions options;
+	options.gust_speed = 0.1, options.gust_time = 5;
+	CVehicleDynamics vehicle({}, {}, options, kNoFloor, 3, poseAt(50));
+	CCurrent current(options, TVehicleOptions().step, 3);
+	for (int i = 0; i < 4000; i++, current.advance()) {
+		if (i % 100 == 0) {
+			ASSERT_EQ(vehicle.waterVelocity(), current.at(vehicle.time(), 50).velocity) << i;
+		}
+		vehicle.advanceTo(vehicle.time() + TVehicleOptions().step);
 	}
 }
 

@@ -70,7 +70,7 @@ TEST(VehicleOptions, EveryKeyChangesTheMotion)
 		{"Vehicle",
 		 {"mass = 53", "buoyancy_mass = 53", "centre_of_gravity = 0.01 0 0", "centre_of_buoyancy = 0 0 -0.03",
 		  "inertia = 0.5 10.42 10.47", "inertia_xz = 0.1", "added_mass = 3 70.4 69.2 0.42 16.2 16.2",
-		  "added_mass_sway_yaw = 0", "added_mass_heave_pitch = 0", "linear_damping = 11 30 30 1 5 5",
+		  "added_mass_sway_yaw = 0", "added_mass_heave_pitch = 0", "linear_damping = 9 30 30 1 5 5",
 		  "quadratic_damping = 37 96 89 0.1 15 15", "stern_lift = 40", "stern_position = -0.5",
 		  "hull_length = 1.5", "hull_radius = 0.12", "floor_stiffness = 1e4", "step = 0.004"}},
 		{"Thrusters",

@@ -17,7 +17,7 @@ struct TVehicleOptions
 	double inertia_xz{0.03};
 	std::vector<double> added_mass{2.1, 70.4, 69.2, 0.42, 16.2, 16.2};
 	double added_mass_sway_yaw{-1.95}, added_mass_heave_pitch{1.57};
-	std::vector<double> linear_damping{10, 30, 30, 1, 5, 5};
+	std::vector<double> linear_damping{8, 30, 30, 1, 5, 5};
 	std::vector<double> quadratic_damping{36, 96, 89, 0.1, 15, 15};
 	double stern_lift{50}, stern_position{-0.573};
 	double hull_length{1.6}, hull_radius{0.115};
