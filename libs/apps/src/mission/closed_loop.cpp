@@ -83,7 +83,7 @@ TControlStep CClosedLoop::control()
 void CClosedLoop::describe(TControlStep& step)
 {
 	const Vector3d position = step.truth.T_map_body.translation();
-	step.true_altitude = m_vehicle.scene().floor()->depthAt(position.x(), position.y()) - position.z();
+	step.true_altitude = m_vehicle.scene().floor()->depthAt(position.head<2>()) - position.z();
 	const CStereoSlam& slam = m_computer.slam();
 	if (slam.odometry().ready()) step.T_odom_body = slam.odometry().now().T;
 	const auto& edges = slam.map().edges();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <posidonia/apps/command_line.h>
 #include <posidonia/apps/experiment.h>
 #include <posidonia/apps/mission/mission_score.h>
 #include <posidonia/apps/slam_outputs.h>
