@@ -6,6 +6,7 @@ foreach(component poses obs config math img io graphs graphslam bayes topography
 	find_package(mrpt-${component} 2.5 REQUIRED)
 endforeach()
 find_package(Threads REQUIRED)
+find_package(embree 3.13 REQUIRED)  # ray tracing of the simulated floor
 find_package(nlohmann_json 3.11 REQUIRED)
 
 # SuiteSparse has no CMake package in Debian 12.

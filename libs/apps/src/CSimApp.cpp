@@ -25,7 +25,8 @@ bool CSimApp::initialize(int argc, const char* const* argv)
 		std::cout << ini.dump();
 		return false;
 	}
-	params.simulation.floor.image = line.besideConfig(params.simulation.floor.image);
+	for (std::string* image : {&params.simulation.floor.image, &params.simulation.relief.image})
+		*image = line.besideConfig(*image);
 	m_verbosity = line.verbosity();
 	const std::string folder = line.outputDir().empty() ? "data" : line.outputDir();
 	m_prefix = folder + "/" + (output_name.isSet() ? output_name.getValue() : line.configName());

@@ -2,7 +2,6 @@
 #include <posidonia/base/files.h>
 #include <posidonia/obs/rawlog_writer.h>
 #include <posidonia/obs/register_observations.h>
-#include <posidonia/sim/picture_files.h>
 #include <posidonia/sim/survey_simulator.h>
 
 #include <atomic>
@@ -11,18 +10,34 @@
 #include <mutex>
 #include <thread>
 
+#include <posidonia/sim/png_file.h>
+
 namespace posidonia
 {
 using mrpt::obs::CObservationStereoImages;
 
 namespace
 {
-/** The pictures of one pair; returns their bytes. */
+/** The pictures of one pair as PNG files; returns their bytes. */
 uint64_t writePictures(
 	const TGreyPair& pictures, const CObservationStereoImages& pair, const std::string& folder)
 {
-	return writePicture(folder + "/" + pair.imageLeft.getExternalStorageFile(), pictures.left) +
-		   writePicture(folder + "/" + pair.imageRight.getExternalStorageFile(), pictures.right);
+	return writePng(folder + "/" + pair.imageLeft.getExternalStorageFile(), pictures.left) +
+		   writePng(folder + "/" + pair.imageRight.getExternalStorageFile(), pictures.right);
+}
+
+/** LABEL_000012_depth.png beside LABEL_000012_left.png: millimetres, 0 where there is none (or too far). */
+uint64_t writeDepths(const cv::Mat1f& metres, const CObservationStereoImages& pair, const std::string& folder)
+{
+	cv::Mat1w millimetres(metres.size());
+	for (int v = 0; v < metres.rows; v++)
+		for (int u = 0; u < metres.cols; u++) {
+			const float mm = 1000 * metres(v, u);
+			millimetres(v, u) = mm > 0 && mm < 65535 ? static_cast<uint16_t>(mm + 0.5f) : uint16_t(0);
+		}
+	std::string name = pair.imageLeft.getExternalStorageFile();
+	name.replace(name.rfind("_left"), std::string::npos, "_depth.png");
+	return writePng(folder + "/" + name, millimetres);
 }
 
 /** job(0) ... job(n - 1) on `threads` threads; the first exception is thrown again here. */
@@ -80,7 +95,8 @@ TSimulationSummary CSurveySimulator::run(const std::string& prefix, const progre
 	size_t done = 0;
 	inParallel(pairs.size(), m_options.run.threads, [&](size_t i) {
 		const auto& observation = dynamic_cast<const CObservationStereoImages&>(*pairs[i].observation);
-		const uint64_t bytes = writePictures(render(pairs[i]), observation, images);
+		uint64_t bytes = writePictures(render(pairs[i]), observation, images);
+		if (m_options.run.save_depth) bytes += writeDepths(depths(pairs[i]), observation, images);
 		const std::lock_guard lock(mutex);
 		summary.image_bytes += bytes;
 		if (progress) progress(static_cast<double>(++done) / static_cast<double>(pairs.size()));
@@ -88,10 +104,19 @@ TSimulationSummary CSurveySimulator::run(const std::string& prefix, const progre
 	summary.observations = writer.count();
 	summary.stereo_pairs = truth.size();
 	summary.kept_pairs = pairs.size();
+	if (m_scene.hasCamera() && m_options.run.overview) writeOverview(prefix + ".overview.png", truth);
 	if (m_scene.hasCamera()) writeTumTrajectory(prefix + ".gt.tum", truth);
 	writeSensors(sensorsPathOf(rawlog), m_nominal);
 	writer.finish();
 	return summary;
+}
+
+void CSurveySimulator::writeOverview(const std::string& path, const TTrajectory& truth) const
+{
+	std::vector<Eigen::Vector3d> way;
+	for (const auto& pose : truth)
+		way.push_back(pose.T.translation());
+	m_scene.writeOverview(path, way);
 }
 
 void writeTumTrajectory(const std::string& path, const TTrajectory& trajectory)

@@ -73,10 +73,20 @@ void CSurveySimulator::stream(const std::function<void(const TSimulatedObservati
 	}
 }
 
+TVehicleState CSurveySimulator::exposureOf(const TSimulatedObservation& pair) const
+{
+	return m_motion.at(pair.truth.t + m_scene.cameraClock());
+}
+
 TGreyPair CSurveySimulator::render(const TSimulatedObservation& pair) const
 {
-	const double exposure = pair.truth.t + m_scene.cameraClock();
-	return m_scene.photograph(m_motion.at(exposure).T_map_body, pair.frame.value());
+	const TVehicleState s = exposureOf(pair);
+	return m_scene.photograph({s.T_map_body, s.v_body, s.omega_body}, pair.frame.value());
+}
+
+cv::Mat1f CSurveySimulator::depths(const TSimulatedObservation& pair) const
+{
+	return m_scene.depths(exposureOf(pair).T_map_body);
 }
 
 void CSurveySimulator::embedPictures(const TSimulatedObservation& pair) const

@@ -9,7 +9,7 @@
 #include <posidonia/eval/trajectory_io.h>
 #include <posidonia/geometry/mrpt_pose.h>
 #include <posidonia/obs/register_observations.h>
-#include <posidonia/sim/picture_files.h>
+#include <posidonia/sim/png_file.h>
 
 #include <filesystem>
 
@@ -50,8 +50,8 @@ void CMissionRecorder::write(const CObservationStereoImages& pair, const TGreyPa
 	m_compressing = std::async(
 		std::launch::async, [pictures, left = pair.imageLeft.getExternalStorageFile(),
 							 right = pair.imageRight.getExternalStorageFile(), folder = m_images] {
-			writePicture(folder + "/" + left, pictures.left);
-			writePicture(folder + "/" + right, pictures.right);
+			writePng(folder + "/" + left, pictures.left);
+			writePng(folder + "/" + right, pictures.right);
 		});
 }
 

@@ -2,32 +2,16 @@
 #include <posidonia/sim/renderer.h>
 
 #include <cmath>
-#include <opencv2/core.hpp>
+
+#include "floor_view.h"
 
 namespace posidonia
 {
 using Eigen::Isometry3d;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace
 {
-constexpr float kRangeStep = 0.005f;  ///< [m]
-constexpr int kRanges = 8192;		  ///< Up to 41 m
-constexpr int kNoiseBits = 12;
-
-/** x with P(normal <= x) = p, by Newton's method on erfc. */
-double normalQuantile(double p)
-{
-	double x = 0;
-	for (int i = 0; i < 60; i++) {
-		const double error = 0.5 * std::erfc(-x / std::sqrt(2.0)) - p;
-		const double density = std::exp(-x * x / 2) / std::sqrt(2 * M_PI);
-		x -= std::clamp(error / density, -0.5, 0.5);
-	}
-	return x;
-}
-
 /** Bilinear value of a level at (column, row), which the caller keeps inside. */
 inline float sampled(const cv::Mat& level, double col, double row)
 {
@@ -41,165 +25,165 @@ inline float sampled(const cv::Mat& level, double col, double row)
 
 /** A point of level 0, in pixel areas (column + 0.5: areas, not centres, nest from level to level), on level
  * n, kept inside: beyond the texture its border goes on. */
-struct TLevelView
+float levelValue(const cv::Mat& level, size_t n, double col, double row)
 {
-	TLevelView(const cv::Mat& texture, size_t n)
-		: level(texture),
-		  scale(std::ldexp(1.0, -static_cast<int>(n))),
-		  last_col(texture.cols - 1.001),
-		  last_row(texture.rows - 1.001)
-	{
-	}
-	float at(double col, double row) const
-	{
-		return sampled(
-			level, std::min(std::max(col * scale - 0.5, 0.0), last_col),
-			std::min(std::max(row * scale - 0.5, 0.0), last_row));
-	}
-	const cv::Mat& level;
-	double scale, last_col, last_row;
-};
+	const double scale = 1.0 / static_cast<double>(size_t(1) << n);
+	return sampled(
+		level, std::min(std::max(col * scale - 0.5, 0.0), level.cols - 1.001),
+		std::min(std::max(row * scale - 0.5, 0.0), level.rows - 1.001));
+}
 }  // namespace
 
-/** One row of the picture: its viewing rays in map, origin + column * step, and where the camera is. */
-struct CFloorRenderer::TRays
+CFloorRenderer::CFloorRenderer(
+	const CFloorTexture& texture, std::shared_ptr<const CSeaFloor> floor, const TStereoCamera& camera,
+	const TOptics& optics, double lamp_distance)
+	: m_texture(texture),
+	  m_floor(std::move(floor)),
+	  m_camera(camera),
+	  m_optics(optics),
+	  m_lamp_distance(lamp_distance),
+	  m_rays(viewRays(camera, optics.port)),
+	  m_water(optics.water, optics.lamp, lamp_distance, 1),
+	  m_sensor(camera, optics.camera)
 {
-	Vector3d origin, step;
-	double height;		   ///< Of the camera over the floor [m]
-	Eigen::Vector2d foot;  ///< Texture pixel (level 0) straight below the camera
-	const float* length;   ///< Of each ray with unit depth
-};
-
-/** What is known of one row of the picture, by column. */
-struct CFloorRenderer::TRow
-{
-	explicit TRow(size_t width) : col(width), row(width), range(width), radiance(width) {}
-	std::vector<double> col, row;		 ///< On level 0, + 0.5
-	std::vector<float> range, radiance;	 ///< [m], [grey levels]
-};
-
-/** Two neighbouring mip levels and the share of the coarser one. */
-struct CFloorRenderer::TLevels
-{
-	size_t fine, coarse;
-	float share;
-};
+	m_sensor.mask(m_rays.lit);
+	for (int i = 0; i < 4096; i++)
+		m_levels.push_back(levelsAt(i * static_cast<double>(TMipLevels::kStep)));
+	for (int v = 0; v < camera.height; v++)
+		for (int u = 0; u < camera.width; u++)
+			m_ray_length.push_back(static_cast<float>(
+				Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1).norm()));
+}
 
 CFloorRenderer::CFloorRenderer(
-	const CFloorTexture& floor, double depth, const TStereoCamera& camera, const TWaterOptions& water,
+	const CFloorTexture& texture, double depth, const TStereoCamera& camera, const TWaterOptions& water,
 	const TCameraOptions& sensor)
-	: m_floor(floor), m_depth(depth), m_camera(camera)
+	: CFloorRenderer(texture, std::make_shared<CFlatSeaFloor>(depth), camera, {water, sensor, {}, {}})
 {
-	buildTables(water, sensor);
 }
+CFloorRenderer::~CFloorRenderer() = default;
 
-void CFloorRenderer::buildTables(const TWaterOptions& water, const TCameraOptions& sensor)
-{
-	for (int i = 0; i < kRanges; i++) {
-		const double range = i * static_cast<double>(kRangeStep);
-		m_direct.push_back(static_cast<float>(std::exp(-water.attenuation * range)));
-		m_veil.push_back(
-			static_cast<float>(water.veiling_light * (1 - std::exp(-water.backscatter * range))));
-	}
-	const int n = 1 << kNoiseBits;
-	for (int i = 0; i < n; i++)
-		m_noise.push_back(static_cast<float>(sensor.noise * normalQuantile((i + 0.5) / n)));
-	const double corner = std::hypot(m_camera.width, m_camera.height) / 2;
-	for (int v = 0; v < m_camera.height; v++)
-		for (int u = 0; u < m_camera.width; u++) {
-			const double off =
-				std::hypot(u - (m_camera.width - 1) / 2.0, v - (m_camera.height - 1) / 2.0) / corner;
-			m_vignetting.push_back(static_cast<float>(1 - sensor.vignetting * off * off));
-			m_ray_length.push_back(static_cast<float>(
-				Vector3d((u - m_camera.cx) / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1).norm()));
-		}
-}
-
-CFloorRenderer::TLevels CFloorRenderer::chooseLevels(double height) const
+TMipLevels CFloorRenderer::levelsAt(double depth) const
 {
 	// Level whose pixels are as wide as a picture pixel's footprint; between two levels, a blend.
-	const double footprint = height / m_camera.fx, last = static_cast<double>(m_floor.levels().size() - 1);
-	const double level = std::clamp(std::log2(footprint / m_floor.resolution()), 0.0, last);
+	const double footprint = depth / m_rays.focal, last = static_cast<double>(m_texture.levels().size() - 1);
+	const double level = std::clamp(std::log2(footprint / m_texture.resolution()), 0.0, last);
 	const size_t fine = static_cast<size_t>(level);
-	return {
-		fine, std::min(fine + 1, m_floor.levels().size() - 1),
-		static_cast<float>(level - static_cast<double>(fine))};
+	return {fine, static_cast<float>(level - static_cast<double>(fine))};
 }
 
-cv::Mat CFloorRenderer::render(const Isometry3d& T_map_camera, uint64_t noise_seed, double water_factor) const
+std::unique_ptr<const CFloorView> CFloorRenderer::viewFrom(const TMoment& moment) const
 {
-	const Matrix3d& R = T_map_camera.linear();
-	const Vector3d centre = T_map_camera.translation();
+	const auto level = m_floor->levelDepth();
+	if (!level || m_optics.lamp.on() || m_optics.port.flat())
+		return std::make_unique<CTracedView>(
+			CTracedView::TWorld{*m_floor, m_texture, m_rays, m_optics.lamp, m_levels}, moment);
+	const Vector3d centre = moment.T_map_camera.translation();
 	// A camera in the floor sees what one a hair above it sees.
-	TRays rays{
-		{},
-		R.col(0) / m_camera.fx,
-		std::max(m_depth - centre.z(), 1e-3),
-		m_floor.pixelAt(centre.head<2>()),
-		nullptr};
-	const TLevels levels = chooseLevels(rays.height);
-	const size_t width = static_cast<size_t>(m_camera.width);
-	TRow row(width);
+	const double height = std::max(*level - centre.z(), 1e-3);
+	return std::make_unique<CPlaneView>(
+		m_camera, m_ray_length, moment.T_map_camera.linear(), height, m_texture.pixelAt(centre.head<2>()),
+		m_texture.resolution(), levelsAt(height));
+}
+
+cv::Mat CFloorRenderer::render(
+	const std::vector<TMoment>& exposure, const TConditions& conditions, uint64_t noise_seed) const
+{
+	const CWaterTables murky =
+		conditions.water_factor == 1
+			? m_water
+			: CWaterTables(m_optics.water, m_optics.lamp, m_lamp_distance, conditions.water_factor);
+	std::vector<std::unique_ptr<const CFloorView>> views;
+	for (const TMoment& moment : exposure)
+		views.push_back(viewFrom(moment));
+	const cv::Mat1f snow = snowLight(exposure, conditions, murky);
+	const float share = 1 / static_cast<float>(exposure.size());
+	TPixelRow row(static_cast<size_t>(m_camera.width));
 	cv::Mat picture(m_camera.height, m_camera.width, CV_8U);
 	for (int v = 0; v < m_camera.height; v++) {
-		rays.origin = R * Vector3d(-m_camera.cx / m_camera.fx, (v - m_camera.cy) / m_camera.fy, 1);
-		rays.length = m_ray_length.data() + static_cast<size_t>(v) * width;
-		intersectRow(rays, row);
-		sampleRow(levels, row);
-		develop(
-			v, row, static_cast<float>(water_factor), mixed(noise_seed, static_cast<uint64_t>(v)),
-			picture.ptr<uint8_t>(v));
+		std::fill(row.light.begin(), row.light.end(), 0.0f);
+		for (const auto& view : views)
+			addLight(*view, murky, v, row);
+		for (int u = 0; u < m_camera.width; u++)
+			row.light[u] = row.light[u] * share + (snow.empty() ? 0 : snow(v, u));
+		m_sensor.develop(
+			v, row.light.data(), mixed(noise_seed, static_cast<uint64_t>(v)), picture.ptr<uint8_t>(v));
 	}
 	return picture;
 }
 
-void CFloorRenderer::intersectRow(const TRays& rays, TRow& row) const
+void CFloorRenderer::addLight(const CFloorView& view, const CWaterTables& water, int v, TPixelRow& row) const
 {
-	const double pixels = rays.height / m_floor.resolution();
+	view.intersectRow(v, row);
+	const auto& levels = m_texture.levels();
 	for (int u = 0; u < m_camera.width; u++) {
-		const double north = rays.origin.x() + u * rays.step.x(), east = rays.origin.y() + u * rays.step.y();
-		const double down = rays.origin.z() + u * rays.step.z();
-		const double per_depth = 1 / std::max(down, 1e-3);	// over the horizon: far away
-		row.range[u] = static_cast<float>(rays.height * per_depth) * rays.length[u];
-		row.col[u] = rays.foot.x() + 0.5 + east * per_depth * pixels;
-		row.row[u] = rays.foot.y() + 0.5 - north * per_depth * pixels;
+		const auto [n, share] = row.levels[u];
+		const size_t next = std::min(n + 1, levels.size() - 1);
+		const float a = levelValue(levels[n], n, row.col[u], row.row[u]);
+		const float b = levelValue(levels[next], next, row.col[u], row.row[u]);
+		const float radiance = (a + share * (b - a)) * row.irradiance[u];
+		row.light[u] += radiance * water.direct(row.way[u]) + water.veil(row.range[u]);
 	}
 }
 
-void CFloorRenderer::sampleRow(const TLevels& levels, TRow& row) const
+cv::Mat1f CFloorRenderer::depths(const Isometry3d& T_map_camera) const
 {
-	const TLevelView fine(m_floor.levels()[levels.fine], levels.fine);
-	const TLevelView coarse(m_floor.levels()[levels.coarse], levels.coarse);
-	for (int u = 0; u < m_camera.width; u++) {
-		const float a = fine.at(row.col[u], row.row[u]), b = coarse.at(row.col[u], row.row[u]);
-		row.radiance[u] = a + levels.share * (b - a);
-	}
+	cv::Mat1f depths = m_floor->rangesAlong(m_rays, T_map_camera);
+	float* value = depths.ptr<float>();
+	for (size_t i = 0; i < m_rays.size(); i++)
+		value[i] = m_rays.origin_z[i] + value[i] * m_rays.z[i];
+	return depths;
 }
 
-void CFloorRenderer::develop(
-	int v, const TRow& row, float water_factor, uint64_t noise_seed, uint8_t* out) const
+cv::Mat1f CFloorRenderer::snowLight(
+	const std::vector<TMoment>& exposure, const TConditions& conditions, const CWaterTables& water) const
 {
-	const float* vignetting =
-		m_vignetting.data() + static_cast<size_t>(v) * static_cast<size_t>(m_camera.width);
-	const float *direct = m_direct.data(), *veil = m_veil.data(), *noise = m_noise.data();
-	constexpr uint64_t mask = (1 << kNoiseBits) - 1;
-	uint64_t bits = 0;
-	for (int u = 0; u < m_camera.width; u++) {
-		bits = u % 4 == 0 ? mixed(noise_seed + static_cast<uint64_t>(u)) : bits >> 16;
-		const int i =
-			static_cast<int>(std::min(water_factor * row.range[u] / kRangeStep + 0.5f, kRanges - 1.0f));
-		const float light = (row.radiance[u] * direct[i] + veil[i]) * vignetting[u] + noise[bits & mask];
-		out[u] = static_cast<uint8_t>(std::min(std::max(light + 0.5f, 0.0f), 255.0f));
+	cv::Mat1f light;
+	if (conditions.flakes.empty()) return light;
+	light = cv::Mat1f::zeros(m_camera.height, m_camera.width);
+	const double brightness = conditions.flake_brightness / static_cast<double>(exposure.size());
+	for (const TMoment& moment : exposure)
+		for (const TFlake& flake : conditions.flakes)
+			addFlake(flake, moment, brightness, water, light);
+	return light;
+}
+
+/** A disc of the flake's diameter, spread by the lens: a Gaussian of the disc's variance and light. */
+void CFloorRenderer::addFlake(
+	const TFlake& flake, const TMoment& moment, double brightness, const CWaterTables& water,
+	cv::Mat1f& light) const
+{
+	constexpr double kLens = 0.7;  // sigma of the picture of a point [px]
+	const Vector3d p = moment.T_map_camera.inverse() * flake.position;
+	if (p.z() < kNearestFlake / 2) return;
+	const Vector3d centre = moment.T_map_camera.translation();
+	const double range = p.norm();
+	if (m_floor->rangeAlong(centre, (flake.position - centre) / range) < range) return;	 // in the floor
+	double gain = brightness, way = range;
+	if (m_optics.lamp.on()) {
+		const double distance = std::max((moment.lamp - flake.position).norm(), kNearestFlake);
+		gain *= std::pow(m_optics.lamp.reference / distance, 2), way += distance;
 	}
+	const Vector3d uvr = m_camera.project(p);
+	const double width = m_camera.fx * flake.diameter / p.z(), variance = kLens * kLens + width * width / 16;
+	const double peak =
+		gain * static_cast<double>(water.direct(static_cast<float>(way))) * width * width / 8 / variance;
+	const int reach = static_cast<int>(std::ceil(4 * std::sqrt(variance)));
+	const int u0 = static_cast<int>(std::lround(uvr.x())), v0 = static_cast<int>(std::lround(uvr.y()));
+	for (int v = std::max(v0 - reach, 0); v <= std::min(v0 + reach, m_camera.height - 1); v++)
+		for (int u = std::max(u0 - reach, 0); u <= std::min(u0 + reach, m_camera.width - 1); u++) {
+			const double off = (u - uvr.x()) * (u - uvr.x()) + (v - uvr.y()) * (v - uvr.y());
+			light(v, u) += static_cast<float>(peak * std::exp(-off / (2 * variance)));
+		}
 }
 
 TGreyPair renderPair(
 	const CFloorRenderer& renderer, const Isometry3d& T_map_camera, double baseline, uint64_t seed,
-	uint64_t frame, double water_factor)
+	uint64_t frame)
 {
 	const Isometry3d T_map_right = T_map_camera * Eigen::Translation3d(baseline, 0, 0);
 	return {
-		renderer.render(T_map_camera, mixed(seed, frame, 0), water_factor),
-		renderer.render(T_map_right, mixed(seed, frame, 1), water_factor)};
+		renderer.render(T_map_camera, mixed(seed, frame, 0)),
+		renderer.render(T_map_right, mixed(seed, frame, 1))};
 }
 }  // namespace posidonia

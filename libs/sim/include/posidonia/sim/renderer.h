@@ -1,73 +1,92 @@
 #pragma once
 
 #include <posidonia/obs/observations.h>
+#include <posidonia/sim/camera_sensor.h>
 #include <posidonia/sim/floor.h>
+#include <posidonia/sim/marine_snow.h>
+#include <posidonia/sim/sea_floor.h>
+#include <posidonia/sim/water.h>
+
+#include <memory>
 
 namespace posidonia
 {
-/** Section [Water]: first-order image formation, grey: I = J exp(-attenuation r) + B (1 - exp(-backscatter
- * r)) over the range r of each pixel (uniform limit of Jaffe-McGlamery; two coefficients as in Akkaynak and
- * Treibitz 2018). */
-struct TWaterOptions
-{
-	double attenuation{0.15}, backscatter{0.15}, veiling_light{75};
+class CFloorView;
+struct TMipLevels;
+struct TPixelRow;
 
-	template <class VISITOR>
-	void visit(VISITOR& v)
-	{
-		v.number("attenuation", attenuation, atLeast(0), "Attenuation of the direct light [1/m]; 0: clear");
-		v.number("backscatter", backscatter, atLeast(0), "Growth of the veil [1/m]; 0: none");
-		v.number("veiling_light", veiling_light, between(0, 255), "Grey of endless water");
-	}
+/** What lies between the floor and the pixels. */
+struct TOptics
+{
+	TWaterOptions water;
+	TCameraOptions camera;
+	TLampOptions lamp;
+	TPortOptions port;
 };
 
-/** Section [Camera]: the sensor's own imperfections. */
-struct TCameraOptions
-{
-	double noise{3}, vignetting{0.25};
-
-	template <class VISITOR>
-	void visit(VISITOR& v)
-	{
-		v.number("noise", noise, atLeast(0), "White noise of a pixel, sigma [grey levels]");
-		v.number("vignetting", vignetting, between(0, 1), "Loss of light in the corners, 0 to 1");
-	}
-};
-
-/** Renders the flat floor as the true cameras see it: exact pin-hole, pixel centres at whole numbers. Const
- * and thread-safe; a picture depends on its arguments only. */
+/** Renders the floor as the true cameras see it: pixel centres at whole numbers, the floor's texture seen
+ * from above. Const and thread-safe; a picture depends on its arguments only. */
 class CFloorRenderer
 {
    public:
-	/** `floor` must outlive the renderer. `depth`: of the floor [m]; `camera`: true intrinsics. */
+	/** `texture` must outlive the renderer; `camera`: true intrinsics. */
 	CFloorRenderer(
-		const CFloorTexture& floor, double depth, const TStereoCamera& camera, const TWaterOptions& water,
+		const CFloorTexture& texture, std::shared_ptr<const CSeaFloor> floor, const TStereoCamera& camera,
+		const TOptics& optics, double lamp_distance = 0);
+	/** A flat floor at `depth` [m] in even light. */
+	CFloorRenderer(
+		const CFloorTexture& texture, double depth, const TStereoCamera& camera, const TWaterOptions& water,
 		const TCameraOptions& sensor);
+	~CFloorRenderer();
 
-	/** What one camera at T_map_camera sees; `noise_seed` fixes the sensor's noise, `water_factor` multiplies
-	 * both coefficients of the water. CV_8UC1. */
-	cv::Mat render(const Eigen::Isometry3d& T_map_camera, uint64_t noise_seed, double water_factor = 1) const;
+	/** Where camera and lamp are at an instant. */
+	struct TMoment
+	{
+		Eigen::Isometry3d T_map_camera;
+		Eigen::Vector3d lamp{0, 0, 0};	///< [m, map]
+	};
+	/** What a picture shows beside the floor. */
+	struct TConditions
+	{
+		std::vector<TFlake> flakes;
+		double flake_brightness{0};
+		double water_factor{1};	 ///< On both coefficients of the water
+	};
+	/** The mean of the moments of an exposure; `noise_seed` fixes the sensor's noise. CV_8UC1. */
+	cv::Mat render(
+		const std::vector<TMoment>& exposure, const TConditions& conditions, uint64_t noise_seed) const;
+	/** One moment in the water as it is. */
+	cv::Mat render(const Eigen::Isometry3d& T_map_camera, uint64_t noise_seed) const
+	{
+		return render({{T_map_camera}}, {}, noise_seed);
+	}
+	/** Depth along the optical axis of what each pixel shows [m]; infinite where there is no floor. */
+	cv::Mat1f depths(const Eigen::Isometry3d& T_map_camera) const;
 
    private:
-	struct TRays;
-	struct TRow;
-	struct TLevels;
-	TLevels chooseLevels(double height) const;
-	void intersectRow(const TRays& rays, TRow& row) const;
-	void sampleRow(const TLevels& levels, TRow& row) const;
-	void develop(int v, const TRow& row, float water_factor, uint64_t noise_seed, uint8_t* out) const;
-	void buildTables(const TWaterOptions& water, const TCameraOptions& sensor);
+	std::unique_ptr<const CFloorView> viewFrom(const TMoment& moment) const;
+	TMipLevels levelsAt(double depth) const;
+	void addLight(const CFloorView& view, const CWaterTables& water, int v, TPixelRow& row) const;
+	cv::Mat1f snowLight(
+		const std::vector<TMoment>& exposure, const TConditions& conditions, const CWaterTables& water) const;
+	void addFlake(
+		const TFlake& flake, const TMoment& moment, double brightness, const CWaterTables& water,
+		cv::Mat1f& light) const;
 
-	const CFloorTexture& m_floor;
-	double m_depth;
+	const CFloorTexture& m_texture;
+	std::shared_ptr<const CSeaFloor> m_floor;
 	TStereoCamera m_camera;
-	std::vector<float> m_direct, m_veil;			///< By range, kRangeStep apart
-	std::vector<float> m_noise;						///< Quantiles of the pixel noise
-	std::vector<float> m_vignetting, m_ray_length;	///< By pixel
+	TOptics m_optics;
+	double m_lamp_distance;
+	TViewRays m_rays;
+	CWaterTables m_water;
+	CCameraSensor m_sensor;
+	std::vector<TMipLevels> m_levels;  ///< By depth along the axis, TMipLevels::kStep apart
+	std::vector<float> m_ray_length;   ///< By pixel: of the pin-hole's ray with unit depth
 };
 
 /** Both pictures of the rig with the LEFT camera at T_map_camera; frame numbers give independent noise. */
 TGreyPair renderPair(
 	const CFloorRenderer& renderer, const Eigen::Isometry3d& T_map_camera, double baseline, uint64_t seed,
-	uint64_t frame, double water_factor = 1);
+	uint64_t frame);
 }  // namespace posidonia

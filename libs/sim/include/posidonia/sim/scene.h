@@ -7,11 +7,13 @@
 
 namespace posidonia
 {
-/** The moment of a stereo pair. */
+/** A stereo pair's exposure. */
 struct TExposure
 {
-	Eigen::Isometry3d T_map_body;
-	double water_factor{1};	 ///< On both coefficients of the water: a burst of turbidity
+	Eigen::Isometry3d T_map_body;		  ///< In the middle of it
+	Eigen::Vector3d v_body{0, 0, 0};	  ///< Velocity in body axes [m/s], for motion blur
+	Eigen::Vector3d omega_body{0, 0, 0};  ///< Angular rate in body axes [rad/s], for motion blur
+	double water_factor{1};				  ///< On both coefficients of the water: a burst of turbidity
 };
 
 /** The world and the stereo rig in it, as they truly are ([CalibrationError] included). Const and
@@ -35,12 +37,18 @@ class CScene
 	{
 		return photograph(TExposure{T_map_body}, frame);
 	}
+	/** Depth along the left camera's axis of what each of its pixels shows [m]; infinite where there is no
+	 * floor. */
+	cv::Mat1f depths(const Eigen::Isometry3d& T_map_body) const;
+	/** PNG of the world from above, north up, with a way [m, map] in it (may be empty). */
+	void writeOverview(const std::string& path, const std::vector<Eigen::Vector3d>& way) const;
 	/** Throws CError unless the floor lies below these positions of the body [m, map] and its texture covers
 	 * what the camera sees from them, and [Floor] margin more. */
 	void requireFloorUnder(const std::vector<Eigen::Vector3d>& positions) const;
 
    private:
 	struct TCamera;
+	std::vector<CFloorRenderer::TMoment> momentsOf(const TExposure& exposure, double aside) const;
 	TFloorOptions m_floor_options;
 	std::shared_ptr<const CSeaFloor> m_floor;
 	std::unique_ptr<const TCamera> m_camera;

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <posidonia/sim/flat_port.h>
+
 #include <Eigen/Dense>
+#include <opencv2/core.hpp>
+#include <optional>
 
 namespace posidonia
 {
@@ -14,6 +18,12 @@ class CSeaFloor
 	/** Distance [m] from `origin` [m, map] along the unit vector `direction` to the floor; infinite where the
 	 * ray does not meet it. */
 	virtual double rangeAlong(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const = 0;
+	/** d depth / d (north, east), smooth from cell to cell: what light falls on. */
+	virtual Eigen::Vector2f gradientAt(const Eigen::Vector2d& north_east) const = 0;
+	/** Its depth [m] where it is level everywhere, else empty. */
+	virtual std::optional<double> levelDepth() const { return std::nullopt; }
+	/** rangeAlong() of every pixel of a picture, from where its ray begins. */
+	virtual cv::Mat1f rangesAlong(const TViewRays& rays, const Eigen::Isometry3d& T_map_camera) const;
 };
 
 /** A level plane without an end. */
@@ -24,6 +34,8 @@ class CFlatSeaFloor : public CSeaFloor
 	explicit CFlatSeaFloor(double depth) : m_depth(depth) {}
 	double depthAt(const Eigen::Vector2d&) const override { return m_depth; }
 	double rangeAlong(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const override;
+	Eigen::Vector2f gradientAt(const Eigen::Vector2d&) const override { return {0, 0}; }
+	std::optional<double> levelDepth() const override { return m_depth; }
 
    private:
 	double m_depth;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <posidonia/obs/geodesy.h>
+#include <posidonia/sim/relief.h>
 #include <posidonia/sim/renderer.h>
 #include <posidonia/sim/sensor_models.h>
 #include <posidonia/sim/vehicle_dynamics.h>
@@ -15,6 +16,7 @@ struct TRunOptions
 	int threads{2};
 	std::string save_images{"nodes"};
 	double node_distance{0.5};
+	bool save_depth{false}, overview{false};
 	bool imu{true}, ahrs{true}, dvl{true}, pressure{true}, gps{true}, stereo{true};
 
 	template <class VISITOR>
@@ -28,6 +30,8 @@ struct TRunOptions
 			"save_images", save_images, {"all", "nodes"},
 			"Keep every stereo pair, or one each node_distance");
 		v.number("node_distance", node_distance, above(0), "True travel between kept pairs [m] (paper: 0.5)");
+		v.flag("save_depth", save_depth, "Write true depths beside each kept pair: 16-bit PNG, mm, left eye");
+		v.flag("overview", overview, "Write a picture of the world from above with the route");
 		v.flag("imu", imu, "Simulate the IMU");
 		v.flag("ahrs", ahrs, "Simulate the AHRS");
 		v.flag("dvl", dvl, "Simulate the DVL");
@@ -45,8 +49,12 @@ struct TSimulationOptions
 	TRouteOptions route;
 	TMotionOptions motion;
 	TFloorOptions floor;
+	TReliefOptions relief;
 	TWaterOptions water;
+	TLampOptions lamp;
+	TSnowOptions snow;
 	TCameraOptions camera;
+	TPortOptions port;
 	TSimulatedImuOptions imu;
 	TSimulatedAhrsOptions ahrs;
 	TSimulatedDvlOptions dvl;
@@ -66,8 +74,12 @@ struct TSimulationOptions
 		f("Route", route);
 		f("Motion", motion);
 		f("Floor", floor);
+		f("Relief", relief);
 		f("Water", water);
+		f("Lamp", lamp);
+		f("MarineSnow", snow);
 		f("Camera", camera);
+		f("Port", port);
 		f("SimulatedImu", imu);
 		f("SimulatedAhrs", ahrs);
 		f("SimulatedDvl", dvl);

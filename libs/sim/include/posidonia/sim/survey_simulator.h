@@ -36,7 +36,8 @@ class CSurveySimulator
 	CSurveySimulator(const TSimulationOptions& options, const TSensorSuite& nominal);
 
 	using progress_t = std::function<void(double fraction)>;
-	/** Writes <prefix>.rawlog, <prefix>_Images/, <prefix>.sensors.ini and <prefix>.gt.tum. `progress` may be
+	/** Writes <prefix>.rawlog, <prefix>_Images/, <prefix>.sensors.ini and <prefix>.gt.tum; on
+	 * request also depths and <prefix>.overview.png. `progress` may be
 	 * empty; it is called from rendering threads, one at a time. */
 	TSimulationSummary run(const std::string& prefix, const progress_t& progress = {});
 
@@ -44,6 +45,8 @@ class CSurveySimulator
 	void stream(const std::function<void(const TSimulatedObservation&)>& consume) const;
 	/** The pictures of a streamed stereo pair. Thread-safe. */
 	TGreyPair render(const TSimulatedObservation& pair) const;
+	/** True depths along the left camera's axis [m] (CScene::depths()). Thread-safe. */
+	cv::Mat1f depths(const TSimulatedObservation& pair) const;
 	/** As render(), put into the observation itself (no external files). */
 	void embedPictures(const TSimulatedObservation& pair) const;
 
@@ -53,6 +56,8 @@ class CSurveySimulator
 
    private:
 	void requireFloorUnderRoute() const;
+	TVehicleState exposureOf(const TSimulatedObservation& pair) const;
+	void writeOverview(const std::string& path, const TTrajectory& truth) const;
 
 	TSimulationOptions m_options;
 	TSensorSuite m_nominal;

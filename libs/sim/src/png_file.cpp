@@ -1,12 +1,12 @@
+#include <posidonia/sim/png_file.h>
+
 #include <posidonia/base/files.h>
-#include <posidonia/sim/picture_files.h>
 
 #include <opencv2/imgcodecs.hpp>
-#include <vector>
 
 namespace posidonia
 {
-uint64_t writePicture(const std::string& path, const cv::Mat& picture)
+uint64_t writePng(const std::string& path, const cv::Mat& picture)
 {
 	// Sensor noise does not compress by repetition: entropy coding alone is as small and several times
 	// faster.
