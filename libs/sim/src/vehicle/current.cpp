@@ -1,6 +1,7 @@
 #include <posidonia/sim/current.h>
 #include <posidonia/sim/smooth_profile.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace posidonia

@@ -2,6 +2,7 @@
 #include <posidonia/obs/frames.h>
 #include <posidonia/sim/hull.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace posidonia
@@ -12,8 +13,8 @@ using Eigen::Vector3d;
 
 namespace
 {
-/** The dissipation of Hunt and Crossley (1975) [s/m]: a touch at 0.1 m/s keeps about 6/7 of its speed, at
- * 0.5 m/s half. */
+/** The dissipation of Hunt and Crossley (1975) [s/m]: what touches at 0.1 m/s goes back with 0.88 of its
+ * speed, at 0.5 m/s with 0.6. */
 constexpr double kFloorDissipation = 2;
 
 Vector6d sixNumbers(const std::vector<double>& numbers)

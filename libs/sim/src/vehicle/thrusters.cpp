@@ -1,6 +1,7 @@
 #include <posidonia/base/error.h>
 #include <posidonia/sim/thrusters.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace posidonia

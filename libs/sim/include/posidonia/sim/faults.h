@@ -17,18 +17,19 @@ namespace posidonia
 class CIniFile;
 struct TSensorSuite;
 
+// clang-format off
 /** A section [Fault.<name>]: something that goes wrong in a run. Which keys there are depends on `kind`:
  *
- * | kind       | keys                          | what happens | | ---------- | -----------------------------
- * | ----------------------------------------------------------- | | drop_out   | label, rate | this part of
- * the sensor's observations is lost              | | outlier    | label, rate, size             | this part
- * of them has a gross error                         | | bias       | label, size                   | the
- * sensor's reading jumps by this                          | | blackout   |                               |
- * the stereo pictures are black                               | | turbidity  | factor | on the water's
- * attenuation and backscatter                  | | current    | velocity                      | water's
- * velocity on top of [Current]'s                      | | thruster   | thruster, efficiency          | it
- * gives only this part of its thrust                       |
- */
+ * | kind      | keys                 | what happens                                    |
+ * | --------- | -------------------- | ----------------------------------------------- |
+ * | drop_out  | label, rate          | this part of the sensor's observations is lost  |
+ * | outlier   | label, rate, size    | this part of them has a gross error             |
+ * | bias      | label, size          | the sensor's reading jumps by this              |
+ * | blackout  |                      | the stereo pictures are black                   |
+ * | turbidity | factor               | on the water's attenuation and backscatter      |
+ * | current   | velocity             | water's velocity on top of [Current]'s          |
+ * | thruster  | thruster, efficiency | it gives only this part of its thrust           | */
+// clang-format on
 struct TFaultOptions
 {
 	std::string name;  ///< From the section
@@ -53,18 +54,15 @@ struct TFaultOptions
 		v.number("duration", duration, atLeast(0), "[s]; 0: to the end");
 		v.number("spread", spread, atLeast(0), "The start comes later by up to this, by the seed [s]");
 		v.seed("seed", seed, "With the run's seed: every random number of this fault follows from them");
-		const bool drawn = kind == "drop_out" || kind == "outlier",
-				   shifted = kind == "outlier" || kind == "bias";
+		const bool drawn = kind == "drop_out" || kind == "outlier";
+		const bool shifted = kind == "outlier" || kind == "bias";
 		if (drawn || shifted) v.text("label", label, "sensorLabel of the sensor that it befalls");
 		if (drawn) v.number("rate", rate, between(0, 1), "Part of the observations that it befalls");
 		if (shifted)
 			v.numbers(
 				"size", size, 0, anyNumber(),
-				"outlier: its length, the direction is random; bias: each number. IMU's gyroscope: 3, body "
-				"axes "
-				"[deg/s]; AHRS's heading: 1 [deg]; DVL's velocity: 3, body axes [m/s]; pressure: 1 [Pa]; "
-				"GPS: 2, "
-				"north east [m]");
+				"outlier: its length; bias: IMU 3 (gyroscope, body axes) [deg/s], AHRS 1 (heading) [deg], "
+				"DVL 3 (body axes) [m/s], pressure 1 [Pa], GPS 2 (north east) [m]");
 		if (kind == "turbidity") v.number("factor", factor, atLeast(0), "On attenuation and backscatter");
 		if (kind == "current") v.numbers("velocity", velocity, 3, between(-5, 5), "North east down [m/s]");
 		if (kind == "thruster") {
@@ -74,8 +72,8 @@ struct TFaultOptions
 	}
 };
 
-/** The faults of an ini, by name. Throws CError, with file, section and key, for a fault without a kind and
- * for keys and values as any section's. */
+/** The faults of an ini, by name; before its refuseUnknown(). Throws CError, with file, section and key, for
+ * a fault without a kind and for keys and values as any section's. */
 std::vector<TFaultOptions> loadFaults(CIniFile& ini);
 
 /** All faults of a run; times t [s] from its start. Every fault draws from a generator of its own, so that
