@@ -52,7 +52,7 @@ class CPlant
 		const TWrench tau = m_law.wrench(m_thrust);
 		const double mu = 54.1, mv = 122.4, mw = 121.2, iz = 26.7;
 		const double u = m_u, v = m_v, w = m_w, r = m_r;
-		m_u += dt * (tau.X - drag(u, 10, 36.4) + mv * v * r) / mu;
+		m_u += dt * (tau.X - drag(u, 8, 36.4) + mv * v * r) / mu;
 		m_v += dt * (-drag(v, 30, 96) - mu * u * r) / mv;
 		m_w += dt * (tau.Z - buoyancy - drag(w, 30, 89)) / mw;
 		m_r += dt * (tau.N - drag(r, 5, 15) + (mu - mv) * u * v) / iz;

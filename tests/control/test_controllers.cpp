@@ -93,7 +93,7 @@ TEST(VelocityController, FeedForwardIsTheSteadyForce)
 	TWrench tau;
 	for (int i = 0; i < 100; i++)
 		tau = controller.update({0.3, 0.1, 0.2}, {0.3, 0.1, 0.2}, {}, {0.3, 0.1, 0.2}, 0.1);
-	EXPECT_NEAR(tau.X, 10 * 0.3 + 36.4 * 0.09, 1e-6);
+	EXPECT_NEAR(tau.X, 8 * 0.3 + 36.4 * 0.09, 1e-6);
 	EXPECT_NEAR(tau.Z, 30 * 0.1 + 89 * 0.01 + options.buoyancy, 1e-6);
 	EXPECT_NEAR(tau.N, 5 * 0.2 + 15 * 0.04, 1e-6);
 }

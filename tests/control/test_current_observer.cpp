@@ -22,7 +22,8 @@ Vector2d observed(const Vector2d& current, const TAutopilotOptions& options)
 TEST(CurrentObserver, FindsTheCurrentWhileTheVehicleMoves)
 {
 	for (const Vector2d& current : {Vector2d(0.1, 0), Vector2d(0, -0.1), Vector2d(-0.07, 0.07)})
-		EXPECT_LT((observed(current, {}) - current).norm(), 0.015) << current.transpose();
+		EXPECT_LT((observed(current, {}) - current).norm(), 0.02)
+			<< current.transpose() << " (the dead zone takes a tenth)";
 }
 
 TEST(CurrentObserver, StillWaterIsNoCurrent)

@@ -7,8 +7,7 @@ namespace posidonia
 {
 namespace
 {
-constexpr double kSurfaceDepth = 0.3;  // A vehicle afloat has its origin above this [m]
-constexpr double kAtRest = 0.05;	   // [m/s]
+constexpr double kAtRest = 0.05;  // [m/s]
 }  // namespace
 
 CAutopilot::CAutopilot(const TAutopilotOptions& options, const TMission& mission)
@@ -142,7 +141,7 @@ bool CAutopilot::finished(const TControlState& navigation, bool fresh) const
 		case ESafetyLevel::DROP_WEIGHT:
 			return true;
 		default:
-			return fresh && navigation.depth() < kSurfaceDepth;
+			return fresh && navigation.afloat();
 	}
 }
 }  // namespace posidonia

@@ -24,7 +24,10 @@ void CCurrentObserver::update(const TCurrentObservation& seen, double dt)
 	m_through_water += dt * modelAcceleration(seen.yaw_rate);
 	const Eigen::Rotation2Dd R_map_body(seen.heading);
 	const Vector2d innovation = seen.velocity - m_through_water - R_map_body.inverse() * m_current;
-	const Vector2d gain(std::min(1.0, dt / m_options.surge_time), std::min(1.0, dt / m_options.sway_time));
+	const double haste = m_through_water.x() / m_options.trusted_speed;
+	const Vector2d gain(
+		std::min(1.0, dt / m_options.surge_time) / (1 + haste * haste),
+		std::min(1.0, dt / m_options.sway_time));
 	m_current += R_map_body * gain.cwiseProduct(innovation);
 	m_current = m_current.cwiseMax(-m_options.max_current).cwiseMin(m_options.max_current);
 }

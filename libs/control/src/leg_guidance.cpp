@@ -8,8 +8,9 @@ using Eigen::Vector2d;
 
 namespace
 {
+constexpr double kRateFilter = 0.5;	   // Takes the velocity's noise out of the fed-forward rate [s]
 constexpr double kLowestSpeed = 0.05;  // So that the end line is crossed [m/s]
-}
+}  // namespace
 
 void CLegGuidance::begin(
 	const Vector2d& start, const Vector2d& end, double speed, const TControlState& navigation,
@@ -24,7 +25,7 @@ void CLegGuidance::begin(
 	m_los.reset();
 	locate(navigation.horizontal());
 	m_heading = heading;
-	m_blend = 0;
+	m_blend = m_rate = 0;
 	const double bow = m_course + crabbed(m_los.course(m_progress.cross), current);
 	m_turn =
 		CTurnProfile(heading, wrapAngle(bow - heading), m_options.turn_rate, m_options.turn_acceleration);
@@ -98,7 +99,11 @@ TReference CLegGuidance::turn(const TControlState& navigation)
 {
 	// While it turns, the vehicle comes back to the corner as far as surge can bring it.
 	const Vector2d to_corner = m_progress.start - navigation.horizontal();
-	m_surge = m_station.update(to_corner, Vector2d::Zero(), navigation.heading()).surge;
+	const double bow = navigation.heading();
+	const double left = to_corner.dot(Vector2d(std::cos(bow), std::sin(bow)));
+	const double brakable = std::sqrt(2 * m_options.deceleration * std::abs(left));
+	const double fastest = std::min(brakable, m_options.station_speed);
+	m_surge = std::clamp(m_options.corner_gain * left, -fastest, fastest);
 	const TReference heading = m_turn.at(navigation.stamp - m_begun);
 	m_heading = heading.value;
 	return heading;
@@ -112,7 +117,8 @@ TReference CLegGuidance::run(const TControlState& navigation, const Vector2d& cu
 	const double error = wrapAngle(m_heading - navigation.heading());
 	m_surge = steer(along(offset, speed()), current, navigation.heading()).surge * alignment(error);
 	const double rate = m_los.courseRate(m_progress.cross, crossRate(navigation));
-	return {m_heading, rate * rateWeight(navigation.stamp), 0};
+	m_rate += std::min(1.0, dt / kRateFilter) * (rate - m_rate);
+	return {m_heading, m_rate * rateWeight(navigation.stamp), 0};
 }
 
 TReference CLegGuidance::approach(const TControlState& navigation, const Vector2d& current, double dt)

@@ -6,11 +6,6 @@ namespace posidonia
 {
 using Eigen::Vector2d;
 
-namespace
-{
-constexpr double kSurfaceDepth = 0.3;  // A vehicle afloat has its origin above this [m]
-}
-
 void CStepGuidance::begin(
 	const TStep& step, const std::optional<Vector2d>& before, const TControlState& navigation,
 	const Vector2d& current)
@@ -70,7 +65,7 @@ bool CStepGuidance::reached(const TControlState& navigation) const
 		case EStepKind::HOLD:
 			return navigation.stamp - m_begun >= m_step.duration;
 		case EStepKind::SURFACE:
-			return navigation.depth() < kSurfaceDepth;
+			return navigation.afloat();
 		case EStepKind::DIVE:
 			return deep_enough;
 		default:

@@ -24,6 +24,8 @@ struct TControlState
 	Eigen::Vector2d horizontal() const { return T_map_body.translation().head<2>(); }
 	/** Heading in (-pi, pi], clockwise from north [rad]. */
 	double heading() const { return yawPitchRoll(T_map_body.linear())[0]; }
+	/** At the surface: the origin of a vehicle that floats is above 0.3 m. */
+	bool afloat() const { return depth() < 0.3; }
 	double pitch() const { return yawPitchRoll(T_map_body.linear())[1]; }
 };
 

@@ -10,8 +10,8 @@ namespace posidonia
 struct TCurrentObserverOptions
 {
 	bool enabled{true};
-	double sway_time{4}, surge_time{10}, max_current{0.5}, dead_zone{0.02};
-	double surge_mass{54.1}, surge_linear_drag{10}, surge_quadratic_drag{36.4};
+	double sway_time{4}, surge_time{10}, trusted_speed{0.05}, max_current{0.5}, dead_zone{0.03};
+	double surge_mass{54.1}, surge_linear_drag{8}, surge_quadratic_drag{36.4};
 	double sway_mass{122.4}, sway_linear_drag{30}, sway_quadratic_drag{96};
 	double thruster_lag{0.8};
 
@@ -23,7 +23,12 @@ struct TCurrentObserverOptions
 			"The observed current gives the crab angle at once; off: the integral of the line of sight "
 			"alone");
 		v.number("sway_time", sway_time, above(0), "Time constant of the current's athwart part [s]");
-		v.number("surge_time", surge_time, above(0), "... and of its fore-and-aft part [s]");
+		v.number(
+			"surge_time", surge_time, above(0), "... and of its fore-and-aft part at rest in the water [s]");
+		v.number(
+			"trusted_speed", trusted_speed, above(0),
+			"The fore-and-aft part learns by 1 / (1 + (u / this)^2): an error of the drag grows with u "
+			"[m/s]");
 		v.number("max_current", max_current, above(0), "Bound of the estimate, each axis [m/s]");
 		v.number("dead_zone", dead_zone, atLeast(0), "A weaker current counts as none [m/s]");
 		v.number("surge_mass", surge_mass, above(0), "With added mass [kg] (Toulon)");

@@ -11,9 +11,10 @@ struct TGuidanceOptions
 {
 	double look_ahead{1.2}, integral_gain{0.04}, integral_limit{1.5};
 	double max_crab{60 * M_PI / 180};
-	double acceleration{0.08}, deceleration{0.05};
+	double acceleration{0.12}, deceleration{0.06};
 	double turn_rate{20 * M_PI / 180}, turn_acceleration{0.12}, turn_tolerance{4 * M_PI / 180},
 		blend_time{1.5};
+	double corner_gain{0.4};
 	double station_gain{0.25}, station_speed{0.15}, station_radius{0.06}, station_turn_rate{0.3};
 	double dive_acceleration{0.05}, lost_altitude{5};
 
@@ -36,6 +37,9 @@ struct TGuidanceOptions
 		v.number(
 			"blend_time", blend_time, above(0),
 			"The heading goes over from the turn's to the line of sight's with this time constant [s]");
+		v.number(
+			"corner_gain", corner_gain, atLeast(0),
+			"Surge per distance to the corner while turning there [1/s]");
 		v.number("station_gain", station_gain, above(0), "Speed per distance when keeping station [1/s]");
 		v.number("station_speed", station_speed, above(0), "... and its bound [m/s]");
 		v.number(

@@ -54,6 +54,7 @@ class CLegGuidance
 	double m_begun{0}, m_running_since{0};		  ///< [s]
 	double m_heading{0};						  ///< Reference [rad], not wrapped
 	double m_blend{0};							  ///< Of the heading reference [rad]
+	double m_rate{0};							  ///< Of the line of sight, filtered [rad/s]
 	double m_surge{0};							  ///< [m/s]
 };
 }  // namespace posidonia

@@ -8,7 +8,7 @@ namespace posidonia
 /** Section [ControllerPose]. */
 struct TControllerPoseOptions
 {
-	double position_rate{0.1};
+	double position_rate{0.05};
 	double rotation_rate{2 * M_PI / 180};
 
 	template <class VISITOR>

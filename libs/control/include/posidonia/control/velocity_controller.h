@@ -12,12 +12,12 @@ namespace posidonia
 /** Section [VelocityControl]: from velocities to forces, an axis each of surge, heave and yaw. */
 struct TVelocityControlOptions
 {
-	std::vector<double> gain{40, 110, 22};
+	std::vector<double> gain{40, 110, 28};
 	std::vector<double> integral_time{4, 6, 5};
 	std::vector<double> derivative_time{0, 0, 0};
 	std::vector<double> integral_limit{15, 12, 3};
 	std::vector<double> inertia{54.1, 121.2, 26.7};
-	std::vector<double> linear_drag{10, 30, 5};
+	std::vector<double> linear_drag{8, 30, 5};
 	std::vector<double> quadratic_drag{36.4, 89, 15};
 	double buoyancy{0.98};
 	std::vector<double> thruster_lag{0.8, 0.4, 0.8};
