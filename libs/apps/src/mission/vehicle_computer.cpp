@@ -49,7 +49,7 @@ void CVehicleComputer::noteArrival(const mrpt::obs::CObservation& o)
 	else if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&o); imu && imuReadingOf(*imu))
 		m_last.imu = stamp;
 	else if (dynamic_cast<const mrpt::obs::CObservationGPS*>(&o))
-		m_last.position = stamp;
+		m_last.position = stamp, m_has_position = true;
 }
 
 /** The instrument is lower than the body's origin. */
@@ -103,13 +103,13 @@ TVehicleHealth CVehicleComputer::health(double stamp) const
 {
 	TVehicleHealth health;
 	health.stamp = stamp;
-	health.navigation_age = stamp - m_last.navigation;
+	health.navigation_age = m_ready_since < 0 ? 0 : stamp - m_last.navigation;
 	health.imu_age = stamp - m_last.imu;
 	health.dvl_age = stamp - m_last.dvl;
 	health.good_dvl_age = stamp - m_last.good_dvl;
 	health.depth_age = stamp - m_last.depth;
 	health.altitude_age = stamp - m_last.altitude;
-	health.position_age = stamp - m_last.position;
+	health.position_age = m_has_position ? stamp - m_last.position : 0;
 	health.initialised_for = m_ready_since < 0 ? 0 : stamp - m_ready_since;
 	health.mission_time = stamp - m_start;
 	health.battery = std::max(0.0, 1 - health.mission_time / m_options.endurance);

@@ -71,6 +71,7 @@ class CVehicleComputer
 	};
 	TArrivals m_last;
 	double m_ready_since{-1};
+	bool m_has_position{false};	 ///< A vehicle that never got a fix has no GPS
 	std::optional<double> m_altitude;
 	double m_last_displacement{0};	///< From the last node, when a pair was last asked about [m]
 };
