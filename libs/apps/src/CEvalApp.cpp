@@ -27,6 +27,7 @@ TRunScores scoresOfFolder(const std::string& folder, const TScoring& scoring, co
 	run.odom = trajectoryIn(folder, "odom");
 	run.slam = trajectoryIn(folder, "slam");
 	run.nodes = trajectoryIn(folder, "nodes");
+	run.control = trajectoryIn(folder, "control");
 	if (run.ekf.empty() && run.odom.empty() && run.slam.empty() && run.nodes.empty())
 		throw CError(
 			folder, "holds none of nodes.tum, slam.tum, odom.tum, ekf.tum",

@@ -1,4 +1,5 @@
 #include <posidonia/apps/CMissionApp.h>
+#include <posidonia/apps/mission/mission_plots.h>
 #include <posidonia/apps/mission/realtime_pacer.h>
 #include <posidonia/apps/progress.h>
 #include <posidonia/apps/run_texts.h>
@@ -82,6 +83,18 @@ struct CMissionApp::TLoop
 	TSilencedAtEnd slam_silenced{slam.timer()}, loop_silenced{loop.timer()};
 };
 
+namespace
+{
+TTrajectory controllerPoses(const std::vector<TControlStep>& steps)
+{
+	TTrajectory poses;
+	for (const TControlStep& step : steps)
+		if (step.feedback.navigation.valid)
+			poses.push_back({step.feedback.navigation.stamp, step.feedback.navigation.T_map_body});
+	return poses;
+}
+}  // namespace
+
 void CMissionApp::run()
 {
 	m_results = {};
@@ -95,6 +108,7 @@ void CMissionApp::run()
 	m_results.rawlog = loop.recorder.rawlog();
 	loop.slam.makeExact();
 	m_results.trajectories.nodes = loop.slam.nodes();
+	m_results.trajectories.control = controllerPoses(m_results.steps);
 	m_results.counts = countsOf(loop.slam);
 	writeResults(loop);
 	score();
@@ -120,14 +134,15 @@ void CMissionApp::fly(TLoop& loop)
 	CProgress progress("mission", m_verbosity == 0);
 	CRealtimePacer pacer(m_realtime, 1 / params.closed_loop.control_rate);
 	const double steps = static_cast<double>(m_mission.steps.size());
-	loop.loop.run([&](const TControlStep& step) {
+	const auto remember = [&] { rememberCausal(loop.slam, m_results.trajectories); };
+	const auto record = [&](const TControlStep& step) {
 		m_results.steps.push_back(step);
-		rememberCausal(loop.slam, m_results.trajectories);
 		progress.update(
 			std::min(1.0, static_cast<double>(step.output.step) / steps),
 			progressText(step, m_mission.steps.size()));
 		pacer.waitFor(step.t);
-	});
+	};
+	loop.loop.run({record, remember});
 	m_results.missed_deadlines = pacer.missed();
 	m_results.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 	if (m_realtime)
@@ -138,24 +153,14 @@ void CMissionApp::fly(TLoop& loop)
 			m_verbosity);
 }
 
-namespace
-{
-TTrajectory controllerPoses(const std::vector<TControlStep>& steps)
-{
-	TTrajectory poses;
-	for (const TControlStep& step : steps)
-		if (step.feedback.navigation.valid)
-			poses.push_back({step.feedback.navigation.stamp, step.feedback.navigation.T_map_body});
-	return poses;
-}
-}  // namespace
-
 void CMissionApp::writeResults(TLoop& loop)
 {
 	writeSlamFiles(*m_folder, loop.slam, m_results.trajectories);
-	writeTum(m_folder->file("control.tum"), controllerPoses(m_results.steps));
+	writeTum(m_folder->file("control.tum"), m_results.trajectories.control);
 	m_folder->write("control.csv", controlCsv(m_results.steps));
 	m_folder->write("events.csv", eventsCsv(m_results.steps, params.simulation.run.start_time));
+	m_folder->write("mission.svg", plotMissionErrors(m_results.steps));
+	m_folder->write("commands.svg", plotCommands(m_results.steps));
 	m_folder->write("loop_timings.csv", timingsCsv(loop.loop.timer(), m_results.counts.nodes));
 }
 

@@ -19,24 +19,30 @@ struct TJudgedBy
 	bool large_is_bad;
 	bool of_missions{false};  ///< Rows that only closed loops have
 };
-constexpr TJudgedBy kJudgedBy[] = {{"nodes.ate.unaligned.mean", true}, {"slam.ate.unaligned.mean", true},
-								   {"odom.ate.unaligned.mean", true},  {"nodes.ate.yaw_position.mean", true},
-								   {"loops.accepted", false},		   {"loops.false", true},
-								   {"loops.sequential.false", true},   {"loops.recall_of_tried", false},
-								   {"loops.recall_of_all", false},
-								   {"mission.estimation_error.mean", true, true},
-								   {"mission.cross_track.mean", true, true},
-								   {"mission.end_error.mean", true, true},
-								   {"mission.end_error.max", true, true},
-								   {"mission.depth_error.mean", true, true},
-								   {"mission.path_length", true, true},
-								   {"mission.duration", true, true},
-								   {"mission.leg_speed", false, true},
-								   {"mission.leg_altitude", false, true},
-								   {"mission.yaw_rate_change.p99", true, true},
-								   {"mission.yaw_rate_change.max", true, true},
-								   {"mission.surge_change.p99", true, true},
-								   {"mission.surge_change.max", true, true}};
+constexpr TJudgedBy kJudgedBy[] = {
+	{"nodes.ate.unaligned.mean", true},
+	{"slam.ate.unaligned.mean", true},
+	{"odom.ate.unaligned.mean", true},
+	{"nodes.ate.yaw_position.mean", true},
+	{"loops.accepted", false},
+	{"loops.false", true},
+	{"loops.sequential.false", true},
+	{"loops.recall_of_tried", false},
+	{"loops.recall_of_all", false},
+	{"control.ate.unaligned.mean", true, true},
+	{"control.ate.unaligned.max", true, true},
+	{"mission.cross_track.mean", true, true},
+	{"mission.end_error.mean", true, true},
+	{"mission.end_error.max", true, true},
+	{"mission.depth_error.mean", true, true},
+	{"mission.path_length", true, true},
+	{"mission.duration", true, true},
+	{"mission.leg_speed", false, true},
+	{"mission.leg_altitude", false, true},
+	{"mission.yaw_rate_change.p99", true, true},
+	{"mission.yaw_rate_change.max", true, true},
+	{"mission.surge_change.p99", true, true},
+	{"mission.surge_change.max", true, true}};
 
 /** The finite row, if the run has it. */
 std::optional<TMetric> find(const TMetrics& rows, const std::string& what)

@@ -49,11 +49,14 @@ std::string tableText(int experiment, const TRunScores& scores)
 	const auto mean = [](const TRunEvaluation& e) { return e.absolute[0].translation.mean; };
 	const TRunEvaluation &nodes = *scores.find("nodes"), &odom = *scores.find("odom"),
 						 &slam = *scores.find("slam");
-	return paperTable(
-		experiment, {{"Ground truth", nodes.truth_length, std::numeric_limits<double>::quiet_NaN()},
-					 {"Odometry", odom.length, mean(odom)},
-					 {"Posidonia (nodes)", nodes.length, mean(nodes)},
-					 {"Posidonia (causal)", slam.length, mean(slam)}});
+	std::vector<TPaperRow> rows{
+		{"Ground truth", nodes.truth_length, std::numeric_limits<double>::quiet_NaN()},
+		{"Odometry", odom.length, mean(odom)},
+		{"Posidonia (nodes)", nodes.length, mean(nodes)},
+		{"Posidonia (causal)", slam.length, mean(slam)}};
+	if (const auto* control = scores.find("control"))
+		rows.push_back({"Posidonia (in control)", control->length, mean(*control)});
+	return paperTable(experiment, rows);
 }
 }  // namespace
 
@@ -87,6 +90,7 @@ TRunScores evaluateTrajectories(
 	evaluate("slam", run.slam);
 	evaluate("odom", run.nodes.empty() ? run.odom : atNodes(run.odom, run.nodes));
 	evaluate("ekf", run.ekf);
+	evaluate("control", run.control);
 	if (const auto* nodes = scores.find("nodes"); nodes && loops)
 		scores.loops = evaluateLoops(*loops, trueNodePoses(nodes->poses), scoring.camera, scoring.loops);
 	return scores;

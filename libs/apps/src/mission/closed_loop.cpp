@@ -15,18 +15,18 @@ CClosedLoop::CClosedLoop(
 	m_timer.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // else it prints itself when it dies
 }
 
-void CClosedLoop::run(const listener_t& listener)
+void CClosedLoop::run(const TListeners& listeners)
 {
 	for (bool finished = false; !finished;) {
 		while (m_vehicle.nextTime() <= double(m_steps) / m_options.loop.control_rate)
-			sense();
+			sense(listeners);
 		const TControlStep step = control();
-		listener(step);
+		listeners.step(step);
 		finished = step.output.finished;
 	}
 }
 
-void CClosedLoop::sense()
+void CClosedLoop::sense(const TListeners& listeners)
 {
 	CSimulatedVehicle::TMeasurement measurement;
 	{
@@ -34,8 +34,10 @@ void CClosedLoop::sense()
 		measurement = m_vehicle.measure();
 	}
 	if (!measurement.observation || !takes(measurement)) return;
-	if (measurement.frame)
+	if (measurement.frame) {
 		takePair(measurement);
+		listeners.pair();
+	}
 	else
 		m_computer.add(m_recorder.write(*measurement.observation));
 }

@@ -1,8 +1,11 @@
 #include <mrpt/core/format.h>
+#include <posidonia/apps/mission/mission_plots.h>
 #include <posidonia/apps/mission/mission_score.h>
 #include <posidonia/eval/statistics.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace posidonia
 {
@@ -14,19 +17,6 @@ namespace
 Vector3d truePosition(const TControlStep& step)
 {
 	return step.truth.T_map_body.translation();
-}
-
-double crossTrack(const TControlStep& step)
-{
-	const TLegProgress& leg = step.output.leg;
-	const Vector2d along = (leg.end - leg.start).normalized();
-	const Vector2d off = truePosition(step).head<2>() - leg.start;
-	return along.x() * off.y() - along.y() * off.x();
-}
-
-bool runsAlong(const TControlStep& step)
-{
-	return step.output.leg.phase == ELegPhase::RUN || step.output.leg.phase == ELegPhase::APPROACH;
 }
 
 /** `q` of 1 of the values are not above it. */
@@ -82,29 +72,37 @@ double wayOf(const std::vector<TControlStep>& steps)
 }
 }  // namespace
 
+namespace
+{
+/** The last point that the mission names. */
+std::optional<Vector2d> lastPoint(const TMission& mission)
+{
+	for (auto step = mission.steps.rbegin(); step != mission.steps.rend(); ++step)
+		if (step->has_end) return step->end;
+	return std::nullopt;
+}
+}  // namespace
+
 TMetrics missionMetrics(const std::vector<TControlStep>& steps, const TMission& mission)
 {
-	std::vector<double> estimation, cross, depth, end, speed, altitude;
+	const std::optional<Vector2d> point = lastPoint(mission);
+	std::vector<double> cross, depth, end, speed, altitude;
 	for (const TControlStep& step : steps) {
-		if (step.feedback.navigation.valid)
-			estimation.push_back(
-				(step.feedback.navigation.T_map_body.translation() - truePosition(step)).norm());
-		if (runsAlong(step)) {
-			cross.push_back(std::abs(crossTrack(step)));
+		if (const double off = trueCrossTrack(step); std::isfinite(off)) {
+			cross.push_back(std::abs(off));
 			speed.push_back(step.truth.v_map.head<2>().norm());
 			altitude.push_back(step.true_altitude);
 			depth.push_back(std::abs(step.output.depth_reference - truePosition(step).z()));
 		}
 		const bool last = step.output.step + 1 == mission.steps.size();
-		if (last && mission.steps.back().kind == EStepKind::HOLD)
-			end.push_back((truePosition(step).head<2>() - mission.steps.back().end).norm());
+		if (point && last && mission.steps.back().kind == EStepKind::HOLD)
+			end.push_back((truePosition(step).head<2>() - *point).norm());
 	}
 	TMetrics rows;
 	rows.push_back({"mission.duration", "s", steps.back().t});
 	rows.push_back({"mission.path_length", "m", wayOf(steps)});
 	rows.push_back({"mission.leg_speed", "m/s", statistics(speed).median});
 	rows.push_back({"mission.leg_altitude", "m", statistics(altitude).mean});
-	addErrors(rows, "estimation_error", estimation);
 	addErrors(rows, "cross_track", cross);
 	addErrors(rows, "depth_error", depth);
 	addErrors(rows, "end_error", end);
@@ -149,7 +147,7 @@ std::string controlCsv(const std::vector<TControlStep>& steps)
 			"%.2f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d,%.4f,%.4f,%.4f,%zu,%d,%.4f,", s.t, p.x(), p.y(),
 			p.z(), yawPitchRoll(s.truth.T_map_body.linear())[0], e.x(), e.y(), e.z(),
 			s.feedback.navigation.heading(), int(s.feedback.correcting), o.x(), o.y(), o.z(), out.step,
-			int(out.leg.phase), runsAlong(s) ? crossTrack(s) : 0.0);
+			int(out.leg.phase), trueCrossTrack(s));
 		csv += mrpt::format(
 			"%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%s\n",
 			out.heading_reference, out.depth_reference, out.unlimited.surge, out.unlimited.heave,
@@ -176,11 +174,10 @@ std::string missionSummary(const TMetrics& rows)
 	const auto value = [&](const char* name) { return metric(rows, std::string("mission.") + name); };
 	return mrpt::format(
 		"mission: %.0f s, %.1f m, legs at %.2f m/s and %.2f m above the floor\n"
-		"pose that the controllers used: mean 3D error %.4f m, worst %.4f m\n"
 		"true cross-track error: mean %.4f m, worst %.4f m; depth: mean %.4f m\n"
 		"true distance from the last point, keeping station: mean %.4f m, worst %.4f m",
 		value("duration"), value("path_length"), value("leg_speed"), value("leg_altitude"),
-		value("estimation_error.mean"), value("estimation_error.max"), value("cross_track.mean"),
-		value("cross_track.max"), value("depth_error.mean"), value("end_error.mean"), value("end_error.max"));
+		value("cross_track.mean"), value("cross_track.max"), value("depth_error.mean"),
+		value("end_error.mean"), value("end_error.max"));
 }
 }  // namespace posidonia

@@ -154,7 +154,7 @@ TOptimizerResult CIncrementalOptimizer::refine(CPoseGraph& graph)
 	TIncrementalResult ignored;
 	followNodes(graph);
 	followFactors(graph, ignored);
-	const TOptimizerResult result = m_batch.optimize(graph);
+	TOptimizerResult result = m_batch.optimize(graph);
 	rebuild(graph);
 	return result;
 }

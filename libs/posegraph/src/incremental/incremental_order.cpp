@@ -51,6 +51,7 @@ double CIncrementalOptimizer::nearness(int node) const
 std::vector<double> CIncrementalOptimizer::nearness(const std::vector<int>& nodes) const
 {
 	std::vector<double> out;
+	out.reserve(nodes.size());
 	for (const int node : nodes)
 		out.push_back(nearness(node));
 	return out;
@@ -129,7 +130,7 @@ void CIncrementalOptimizer::findPairs(const CBayesTree::TTop& top)
  * variables, which are joined with everything. */
 std::vector<int> CIncrementalOptimizer::ringsOf(const std::vector<int>& nodes) const
 {
-	constexpr double kRingGrowth = 4;
+	constexpr long kRingGrowth = 4;
 	const int n = int(nodes.size());
 	const std::vector<double> late = nearness(nodes);
 	std::vector<int> by_nearness(n);
@@ -138,11 +139,11 @@ std::vector<int> CIncrementalOptimizer::ringsOf(const std::vector<int>& nodes) c
 		return late[a] != late[b] ? late[a] > late[b] : nodes[a] > nodes[b];
 	});
 	int rings = 1;
-	for (double size = m_options.inner_ring; size < n; size *= kRingGrowth)
+	for (long size = m_options.inner_ring; size < n; size *= kRingGrowth)
 		rings++;
 	std::vector<int> ring_of(n, 0);
 	if (n <= rings) return ring_of;	 // CAMD wants groups below n
-	double size = m_options.inner_ring;
+	long size = m_options.inner_ring;
 	for (int k = 0, ring = rings - 1; k < n; k++) {
 		if (k >= size) ring--, size *= kRingGrowth;
 		ring_of[by_nearness[k]] = ring;

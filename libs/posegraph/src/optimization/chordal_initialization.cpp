@@ -128,6 +128,7 @@ void solveRotations(
 {
 	CLinearGraph system(number, free_count, 3);
 	std::vector<MatrixXd> x;
+	x.reserve(poses.size());
 	for (const Isometry3d& T : poses)
 		x.push_back(T.linear().transpose());
 	for (const TPoseEdge& edge : graph.edges()) {
@@ -150,6 +151,7 @@ void solveTranslations(
 {
 	CLinearGraph system(number, free_count, 1);
 	std::vector<MatrixXd> x;
+	x.reserve(poses.size());
 	for (const Isometry3d& T : poses)
 		x.push_back(T.translation());
 	for (const TPoseEdge& edge : graph.edges()) {

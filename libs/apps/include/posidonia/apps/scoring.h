@@ -16,6 +16,8 @@ struct TRunTrajectories
 	TTrajectory odom;	///< odom.tum: what the graph gets, after the corruptor
 	TTrajectory slam;	///< slam.tum: handed out at each stereo pair, causal
 	TTrajectory nodes;	///< nodes.tum: after the last optimisation
+	/** control.tum: what the controllers of a closed loop were given, causal and rate-limited; else empty. */
+	TTrajectory control{};
 };
 
 /** What a run is judged by. */
@@ -36,7 +38,7 @@ struct TRunScores
 		std::string name;
 		TRunEvaluation evaluation;
 	};
-	std::vector<TNamed> trajectories;  ///< Those that are there, in the order nodes, slam, odom, ekf
+	std::vector<TNamed> trajectories;  ///< Those that are there, in the order nodes, slam, odom, ekf, control
 	std::optional<TLoopEvaluation> loops;
 
 	/** The evaluation of `name`; null when it is not there. */

@@ -35,16 +35,19 @@ class CClosedLoop
 		const TOptions& options, CSimulatedVehicle& vehicle, CVehicleComputer& computer,
 		CMissionRecorder& recorder);
 
-	/** Called after each step of the autopilot. */
-	using listener_t = std::function<void(const TControlStep&)>;
+	struct TListeners
+	{
+		std::function<void(const TControlStep&)> step;	///< After each step of the autopilot
+		std::function<void()> pair;						///< After each stereo pair that SLAM was given
+	};
 	/** Until the mission is finished. */
-	void run(const listener_t& listener);
+	void run(const TListeners& listeners);
 
 	/** CPU stages of the loop itself: rendering, dynamics and sensors, control. */
 	mrpt::system::CTimeLogger& timer() { return m_timer; }
 
    private:
-	void sense();
+	void sense(const TListeners& listeners);
 	bool takes(const CSimulatedVehicle::TMeasurement& measurement);
 	void takePair(const CSimulatedVehicle::TMeasurement& pair);
 	TControlStep control();

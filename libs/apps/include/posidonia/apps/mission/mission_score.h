@@ -8,9 +8,9 @@
 
 namespace posidonia
 {
-/** Rows "mission.*" of what a closed loop did, by the truth.
+/** Rows "mission.*" of what a closed loop did, by the truth. (The error of the pose that the controllers used
+ * is "control.ate.*", as for any trajectory.)
  *
- * - estimation_error: 3D distance between the pose that the controllers used and the true one, at each step;
  * - cross_track: true horizontal distance from the line of the leg, while it is run along (not while turning
  *   on the spot);
  * - end_error: true horizontal distance from the mission's last point while station is kept there;
