@@ -39,10 +39,14 @@ constexpr TJudgedBy kJudgedBy[] = {
 	{"mission.duration", true, true},
 	{"mission.leg_speed", false, true},
 	{"mission.leg_altitude", false, true},
-	{"mission.yaw_rate_change.p99", true, true},
-	{"mission.yaw_rate_change.max", true, true},
-	{"mission.surge_change.p99", true, true},
-	{"mission.surge_change.max", true, true}};
+	{"mission.yaw_rate_step.p99", true, true},
+	{"mission.yaw_rate_step.max", true, true},
+	{"mission.surge_step.p99", true, true},
+	{"mission.surge_step.max", true, true},
+	{"mission.yaw_rate_range.p99", true, true},
+	{"mission.yaw_rate_range.max", true, true},
+	{"mission.surge_range.p99", true, true},
+	{"mission.surge_range.max", true, true}};
 
 /** The finite row, if the run has it. */
 std::optional<TMetric> find(const TMetrics& rows, const std::string& what)

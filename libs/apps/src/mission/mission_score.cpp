@@ -40,6 +40,15 @@ std::vector<double> ranges(const std::vector<double>& values, size_t half)
 	return out;
 }
 
+/** How much each value differs from the one before. */
+std::vector<double> stepsOf(const std::vector<double>& values)
+{
+	std::vector<double> out;
+	for (size_t k = 1; k < values.size(); k++)
+		out.push_back(std::abs(values[k] - values[k - 1]));
+	return out;
+}
+
 template <class F>
 std::vector<double> valuesOf(const std::vector<TControlStep>& steps, const F& value)
 {
@@ -108,12 +117,12 @@ TMetrics missionMetrics(const std::vector<TControlStep>& steps, const TMission& 
 	addErrors(rows, "end_error", end);
 	const double period = steps.size() > 1 ? steps[1].t - steps[0].t : 1;
 	const auto half = static_cast<size_t>(std::lround(2 / period));
-	addChanges(
-		rows, "yaw_rate_change", "rad/s",
-		ranges(valuesOf(steps, [](const auto& s) { return s.output.unlimited.yaw_rate; }), half));
-	addChanges(
-		rows, "surge_change", "m/s",
-		ranges(valuesOf(steps, [](const auto& s) { return s.output.unlimited.surge; }), half));
+	const auto yaw_rates = valuesOf(steps, [](const auto& s) { return s.output.unlimited.yaw_rate; });
+	const auto surges = valuesOf(steps, [](const auto& s) { return s.output.unlimited.surge; });
+	addChanges(rows, "yaw_rate_step", "rad/s", stepsOf(yaw_rates));
+	addChanges(rows, "surge_step", "m/s", stepsOf(surges));
+	addChanges(rows, "yaw_rate_range", "rad/s", ranges(yaw_rates, half));
+	addChanges(rows, "surge_range", "m/s", ranges(surges, half));
 	return rows;
 }
 

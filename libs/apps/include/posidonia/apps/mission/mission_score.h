@@ -14,8 +14,9 @@ namespace posidonia
  * - cross_track: true horizontal distance from the line of the leg, while it is run along (not while turning
  *   on the spot);
  * - end_error: true horizontal distance from the mission's last point while station is kept there;
- * - yaw_rate_change, surge_change: largest minus smallest command, before the limiters, in the 4 s round a
- *   step; the 99th percentile and the largest of all steps. */
+ * - yaw_rate_step, surge_step: change of the command, before the limiters, from one step to the next;
+ *   yaw_rate_range, surge_range: its largest minus its smallest value in the 4 s round a step. Of each the
+ * 99th percentile and the largest. */
 TMetrics missionMetrics(const std::vector<TControlStep>& steps, const TMission& mission);
 
 /** How the controllers' pose took a jump of the map: rows "jump.*". Empty without one.
