@@ -42,23 +42,16 @@ void addPortRay(const TPortOptions& port, double x, double y, TViewRays& rays)
 	const double sine = z > 0 ? sineThrough(port, slope * z, z) : slope / std::hypot(slope, 1);
 	const TPortRay ray = throughPort(port, sine);
 	const double along_x = slope > 0 ? x / slope : 0, along_y = slope > 0 ? y / slope : 0;
-	rays.origin_x.push_back(static_cast<float>(along_x * ray.radius));
-	rays.origin_y.push_back(static_cast<float>(along_y * ray.radius));
-	rays.origin_z.push_back(static_cast<float>(port.distance + port.glass));
-	rays.x.push_back(static_cast<float>(along_x * ray.sine));
-	rays.y.push_back(static_cast<float>(along_y * ray.sine));
-	rays.z.push_back(static_cast<float>(ray.cosine));
+	rays.origin.push_back(along_x * ray.radius, along_y * ray.radius, port.distance + port.glass);
+	rays.direction.push_back(along_x * ray.sine, along_y * ray.sine, ray.cosine);
 	rays.lit.push_back(z > 0 && radiusAt(port, kGrazing, z) < slope * z ? 0 : 1);
 }
 
 void addPinHoleRay(double x, double y, TViewRays& rays)
 {
 	const double length = std::sqrt(x * x + y * y + 1);
-	for (auto* origin : {&rays.origin_x, &rays.origin_y, &rays.origin_z})
-		origin->push_back(0);
-	rays.x.push_back(static_cast<float>(x / length));
-	rays.y.push_back(static_cast<float>(y / length));
-	rays.z.push_back(static_cast<float>(1 / length));
+	rays.origin.push_back(0, 0, 0);
+	rays.direction.push_back(x / length, y / length, 1 / length);
 	rays.lit.push_back(1);
 }
 }  // namespace

@@ -8,7 +8,7 @@ namespace posidonia
 struct TMipLevels
 {
 	static constexpr float kStep = 0.01f;  ///< Of tables by depth [m]
-	size_t fine;
+	uint8_t fine;
 	float share;
 };
 
@@ -16,14 +16,30 @@ struct TMipLevels
 struct TPixelRow
 {
 	explicit TPixelRow(size_t width)
-		: col(width), row(width), levels(width), range(width), way(width), irradiance(width), light(width)
+		: col(width),
+		  row(width),
+		  level(width),
+		  share(width),
+		  range(width),
+		  way(width),
+		  irradiance(width),
+		  radiance(width),
+		  coarse(width),
+		  light(width),
+		  work_at(width),
+		  work_x(width),
+		  work_y(width)
 	{
 	}
-	std::vector<double> col, row;	 ///< On level 0 of the texture, + 0.5 (areas, not centres)
-	std::vector<TMipLevels> levels;	 ///< Of the texture
-	std::vector<float> range, way;	 ///< In the water: floor to camera; lamp to floor to camera [m]
-	std::vector<float> irradiance;	 ///< Light on the floor; 1: as on level floor by day
-	std::vector<float> light;		 ///< Sum over the moments of the exposure [grey levels]
+	std::vector<double> col, row;		  ///< On level 0 of the texture, + 0.5 (areas, not centres)
+	std::vector<uint8_t> level;			  ///< Finer of the two levels of the texture
+	std::vector<float> share;			  ///< Of the coarser
+	std::vector<float> range, way;		  ///< In the water: floor to camera; lamp to floor to camera [m]
+	std::vector<float> irradiance;		  ///< Light on the floor; 1: as on level floor by day
+	std::vector<float> radiance, coarse;  ///< Of the texture; of its coarser level [grey levels]
+	std::vector<float> light;			  ///< Sum over the moments of the exposure [grey levels]
+	std::vector<int> work_at;
+	std::vector<float> work_x, work_y;
 };
 
 /** The floor from one place. */
@@ -31,7 +47,7 @@ class CFloorView
 {
    public:
 	virtual ~CFloorView() = default;
-	/** Where the rays of row `v` of the picture meet the floor; `light` stays. */
+	/** Where the rays of row `v` of the picture meet the floor: fills col to irradiance. */
 	virtual void intersectRow(int v, TPixelRow& row) const = 0;
 };
 
@@ -82,18 +98,23 @@ class CTracedView : public CFloorView
 	void intersectRow(int v, TPixelRow& row) const override;
 
    private:
-	/** A point of the floor, from the camera in map axes [m], and the floor's slope there. */
-	struct TPoint
+	/** A row of points of the floor. */
+	struct TPoints
 	{
-		Eigen::Vector3f from_camera;
-		Eigen::Vector2f gradient;
+		explicit TPoints(size_t n) : camera(n), map(n), north(n), east(n), slope(n) {}
+		TPixelVectors camera, map;		 ///< From the camera, in its axes and in those of map [m]
+		std::vector<float> north, east;	 ///< In map [m]
+		CSeaFloor::TGradients slope;
 	};
-	void illuminate(const TPoint& point, size_t u, TPixelRow& row) const;
+	void locate(int v, TPixelRow& row, TPoints& points) const;
+	void lightByDay(const TPoints& points, TPixelRow& row) const;
+	void lightByLamp(const TPoints& points, TPixelRow& row) const;
 
 	TWorld m_world;
 	Eigen::Matrix3f m_R;
 	Eigen::Vector3d m_centre;
 	Eigen::Vector3f m_lamp;	 ///< From the camera, in map axes [m]
 	cv::Mat1f m_ranges;
+	mutable TPoints m_points;  ///< Of the row in work: a view serves one thread
 };
 }  // namespace posidonia

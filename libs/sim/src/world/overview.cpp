@@ -42,19 +42,25 @@ TMap textureMap(const CFloorTexture& texture)
 	return {colour, texture.resolution() / shrink};
 }
 
-/** Brightness of the slope under light from the north-west, 45 degrees high; 1 on level floor. */
-double hillShade(const Eigen::Vector2f& gradient)
-{
-	const Eigen::Vector3d up(static_cast<double>(gradient.x()), static_cast<double>(gradient.y()), -1);
-	const Eigen::Vector3d to_light(0.5, -0.5, -std::sqrt(0.5));
-	return std::max(0.0, up.normalized().dot(to_light)) / std::sqrt(0.5);
-}
-
+/** Light from the north-west, 45 degrees high; level floor keeps its grey. */
 void shade(const CSeaFloor& floor, TMap& map)
 {
-	for (int v = 0; v < map.picture.rows; v++)
-		for (int u = 0; u < map.picture.cols; u++)
-			map.picture(v, u) *= hillShade(floor.gradientAt(map.northEast(u, v)));
+	const size_t width = static_cast<size_t>(map.picture.cols);
+	const Eigen::Vector3d to_light(0.5, -0.5, -std::sqrt(0.5));
+	std::vector<float> north(width), east(width);
+	CSeaFloor::TGradients slope(width);
+	for (int v = 0; v < map.picture.rows; v++) {
+		for (size_t u = 0; u < width; u++) {
+			const Eigen::Vector2f p = map.northEast(static_cast<int>(u), v).cast<float>();
+			north[u] = p.x(), east[u] = p.y();
+		}
+		floor.gradientsAt(north, east, slope);
+		for (size_t u = 0; u < width; u++) {
+			const Eigen::Vector3f up(slope.per_north[u], slope.per_east[u], -1);
+			map.picture(v, static_cast<int>(u)) *=
+				std::max(0.0, up.cast<double>().normalized().dot(to_light)) / std::sqrt(0.5);
+		}
+	}
 }
 
 /** The largest of 1, 2, 5 x 10^n that is not above `most`. */

@@ -16,7 +16,12 @@ CPictureTracer::CPictureTracer(
 	  m_centre(T_map_camera.translation().cast<float>()),
 	  m_ranges(rays.height, rays.width),
 	  m_inverse((rays.height + kBlock - 2) / kBlock + 1, (rays.width + kBlock - 2) / kBlock + 1),
-	  m_edge(m_inverse.size())
+	  m_edge(m_inverse.size()),
+	  m_from(static_cast<size_t>(rays.width)),
+	  m_along(static_cast<size_t>(rays.width)),
+	  m_range(static_cast<size_t>(rays.width), 1.0f),
+	  m_miss(m_range.size()),
+	  m_rate(m_range.size())
 {
 }
 
@@ -24,26 +29,16 @@ cv::Mat1f CPictureTracer::ranges()
 {
 	traceCorners();
 	findEdges();
-	for (int j = 0; j + 1 < m_inverse.rows; j++)
-		for (int i = 0; i + 1 < m_inverse.cols; i++)
-			fillBlock(i, j);
+	for (int v = 0; v < m_rays.height; v++)
+		fillRow(v);
 	trace();
 	return m_ranges;
-}
-
-Vector3f CPictureTracer::originOf(size_t i) const
-{
-	return m_centre + m_R * Vector3f(m_rays.origin_x[i], m_rays.origin_y[i], m_rays.origin_z[i]);
-}
-Vector3f CPictureTracer::directionOf(size_t i) const
-{
-	return m_R * Vector3f(m_rays.x[i], m_rays.y[i], m_rays.z[i]);
 }
 
 void CPictureTracer::queue(size_t i)
 {
 	m_queued[m_packet.count] = i;
-	m_packet.add(originOf(i), directionOf(i));
+	m_packet.add(m_centre + m_R * m_rays.origin[i], m_R * m_rays.direction[i]);
 	if (m_packet.full()) trace();
 }
 
@@ -68,7 +63,7 @@ void CPictureTracer::traceCorners()
 	for (int j = 0; j < m_inverse.rows; j++)
 		for (int i = 0; i < m_inverse.cols; i++) {
 			const size_t k = corner(i, j);
-			m_inverse(j, i) = 1 / (m_rays.origin_z[k] + m_ranges.ptr<float>()[k] * m_rays.z[k]);
+			m_inverse(j, i) = 1 / (m_rays.origin.z[k] + m_ranges.ptr<float>()[k] * m_rays.direction.z[k]);
 		}
 }
 
@@ -90,47 +85,50 @@ void CPictureTracer::findEdges()
 			m_edge(j, i) = bends(i, j);
 }
 
-void CPictureTracer::fillBlock(int i, int j)
+bool CPictureTracer::smooth(int i, int j) const
 {
-	if (!(m_edge(j, i) || m_edge(j, i + 1) || m_edge(j + 1, i) || m_edge(j + 1, i + 1)))
-		return fillSmooth(i, j);
-	for (int v = kBlock * j; v < std::min(kBlock * (j + 1), m_rays.height); v++)
-		for (int u = kBlock * i; u < std::min(kBlock * (i + 1), m_rays.width); u++)
-			queue(pixel(u, v));
+	return !(m_edge(j, i) || m_edge(j, i + 1) || m_edge(j + 1, i) || m_edge(j + 1, i + 1));
 }
 
-void CPictureTracer::fillSmooth(int i, int j)
+void CPictureTracer::guessRow(int v)
 {
-	const int u0 = kBlock * i, v0 = kBlock * j;
-	const int u1 = std::min(u0 + kBlock, m_rays.width - 1), v1 = std::min(v0 + kBlock, m_rays.height - 1);
-	const float per_u = 1 / static_cast<float>(u1 - u0), per_v = 1 / static_cast<float>(v1 - v0);
-	for (int v = v0; v < std::min(v0 + kBlock, m_rays.height); v++) {
-		const float fv = static_cast<float>(v - v0) * per_v;
+	const int j = std::min(v / kBlock, m_inverse.rows - 2), v0 = kBlock * j;
+	const float fv =
+		static_cast<float>(v - v0) / static_cast<float>(std::min(kBlock, m_rays.height - 1 - v0));
+	for (int i = 0; i + 1 < m_inverse.cols; i++) {
+		if (!smooth(i, j)) continue;
+		const int u0 = kBlock * i;
 		const float left = m_inverse(j, i) + fv * (m_inverse(j + 1, i) - m_inverse(j, i));
 		const float right = m_inverse(j, i + 1) + fv * (m_inverse(j + 1, i + 1) - m_inverse(j, i + 1));
+		const float step = (right - left) / static_cast<float>(std::min(kBlock, m_rays.width - 1 - u0));
 		for (int u = u0; u < std::min(u0 + kBlock, m_rays.width); u++) {
 			const size_t k = pixel(u, v);
-			const float inverse = left + static_cast<float>(u - u0) * per_u * (right - left);
-			const float range = refined(k, (1 / inverse - m_rays.origin_z[k]) / m_rays.z[k]);
-			if (range > 0)
-				m_ranges(v, u) = range;
-			else
-				queue(k);
+			const float depth = 1 / (left + static_cast<float>(u - u0) * step);
+			m_range[static_cast<size_t>(u)] = (depth - m_rays.origin.z[k]) / m_rays.direction.z[k];
 		}
 	}
 }
 
-float CPictureTracer::refined(size_t i, float range) const
+void CPictureTracer::fillRow(int v)
 {
-	const Vector3f origin = originOf(i), along = directionOf(i);
-	for (int step = 0; step <= kSteps; step++) {
-		const auto floor = m_surface.at(origin.x() + range * along.x(), origin.y() + range * along.y());
-		const float above = floor.depth - (origin.z() + range * along.z());
-		const float rate = along.z() - floor.per_north * along.x() - floor.per_east * along.y();
-		if (rate < 0.05f) return -1;  // along the floor, or from behind
-		range += above / rate;
-		if (std::abs(above) < kClose) return range;
+	const size_t first = pixel(0, v), width = static_cast<size_t>(m_rays.width);
+	const float none[] = {0, 0, 0};
+	turnRow(m_R.data(), m_centre.data(), rowOf(m_rays.origin, first), rowOf(m_from), width);
+	turnRow(m_R.data(), none, rowOf(m_rays.direction, first), rowOf(m_along), width);
+	guessRow(v);
+	for (int step = 0; step < 2; step++)
+		stepToSurface(
+			m_surface.depth(), rowOf(m_from, 0), rowOf(m_along, 0), m_range.data(), m_miss.data(),
+			m_rate.data(), width);
+	const int j = std::min(v / kBlock, m_inverse.rows - 2);
+	float* out = m_ranges.ptr<float>(v);
+	for (int i = 0; i + 1 < m_inverse.cols; i++) {
+		const bool guessed = smooth(i, j);
+		for (int u = kBlock * i; u < std::min(kBlock * (i + 1), m_rays.width); u++)
+			if (guessed && met(static_cast<size_t>(u)))
+				out[u] = m_range[static_cast<size_t>(u)];
+			else
+				queue(first + static_cast<size_t>(u));
 	}
-	return -1;
 }
 }  // namespace posidonia

@@ -2,6 +2,7 @@
 
 #include <posidonia/sim/flat_port.h>
 
+#include <cmath>
 #include <vector>
 
 #include "height_surface.h"
@@ -9,9 +10,10 @@
 
 namespace posidonia
 {
-/** Ranges of a whole picture. Embree traces the corners of blocks of 4 x 4 pixels. Where the depths of the
+/** Ranges of a whole picture. Embree traces the corners of blocks of 8 x 8 pixels. Where the depths of the
  * corners bend little the block sees one smooth piece of floor: its pixels start from the corners' inverse
- * depth, which is linear over a plane, and Newton's method finds where each ray meets its triangle. All
+ * depth, which is linear over a plane, and two steps of Newton's
+ * method find where each ray meets its triangle. All
  * other pixels - edges of boulders, what lies behind them, the horizon - are traced. */
 class CPictureTracer
 {
@@ -22,25 +24,29 @@ class CPictureTracer
 	cv::Mat1f ranges();
 
    private:
-	static constexpr int kBlock = 4;		///< [px]
-	static constexpr float kBend = 0.01f;	///< Second difference of inverse depth that is an edge, relative
-	static constexpr float kClose = 2e-5f;	///< A ray ends this near to its triangle [m]
-	static constexpr int kSteps = 3;		///< Of Newton's method
+	static constexpr int kBlock = 8;		///< [px]
+	static constexpr float kBend = 0.005f;	///< Second difference of inverse depth that is an edge, relative
+	static constexpr float kClose = 1e-4f;	///< A ray may miss its triangle by this before the last step [m]
+	static constexpr float kGrazing = 0.05f;  ///< It must come this much nearer a metre
 
 	size_t pixel(int u, int v) const
 	{
 		return static_cast<size_t>(v) * static_cast<size_t>(m_rays.width) + static_cast<size_t>(u);
 	}
-	Eigen::Vector3f originOf(size_t i) const;
-	Eigen::Vector3f directionOf(size_t i) const;
 	void queue(size_t i);  ///< For trace()
 	void trace();		   ///< Those queued, 16 at a time
 	void traceCorners();
 	void findEdges();
 	bool bends(int i, int j) const;
-	void fillBlock(int i, int j);
-	void fillSmooth(int i, int j);
-	float refined(size_t i, float range) const;
+	void fillRow(int v);
+	/** Ranges that the corners of the blocks suggest; smooth blocks only, the others stay. */
+	void guessRow(int v);
+	bool smooth(int i, int j) const;
+	/** Has the row's ray met its triangle? */
+	bool met(size_t u) const
+	{
+		return std::abs(m_miss[u]) < kClose && m_rate[u] > kGrazing && m_range[u] > 0;
+	}
 
 	const CHeightSurface& m_surface;
 	const CRayTracer& m_tracer;
@@ -52,5 +58,7 @@ class CPictureTracer
 	cv::Mat1b m_edge;	  ///< Do the depths bend there?
 	CRayTracer::TPacket m_packet;
 	size_t m_queued[16];
+	TPixelVectors m_from, m_along;				 ///< The rays of a row in map axes
+	std::vector<float> m_range, m_miss, m_rate;	 ///< Of that row
 };
 }  // namespace posidonia

@@ -21,14 +21,21 @@ CReliefSeaFloor::~CReliefSeaFloor() = default;
 
 double CReliefSeaFloor::depthAt(const Vector2d& north_east) const
 {
-	const Eigen::Vector2f p = north_east.cast<float>();
-	return static_cast<double>(m_shape->surface.at(p.x(), p.y()).depth);
+	// A ray straight down: one step meets the triangle below.
+	const float x = static_cast<float>(north_east.x()), y = static_cast<float>(north_east.y());
+	const float surface = 0, level = 0, down = 1;
+	float range = 0, miss, rate;
+	stepToSurface(
+		m_shape->surface.depth(), {&x, &y, &surface}, {&level, &level, &down}, &range, &miss, &rate, 1);
+	return static_cast<double>(range);
 }
 
-Eigen::Vector2f CReliefSeaFloor::gradientAt(const Vector2d& north_east) const
+void CReliefSeaFloor::gradientsAt(
+	const std::vector<float>& north, const std::vector<float>& east, TGradients& gradients) const
 {
-	const Eigen::Vector2f p = north_east.cast<float>();
-	return m_shape->surface.smoothGradient(p.x(), p.y());
+	valuesAt(
+		m_shape->surface.perNorth(), north.data(), east.data(), gradients.per_north.data(), north.size());
+	valuesAt(m_shape->surface.perEast(), north.data(), east.data(), gradients.per_east.data(), north.size());
 }
 
 double CReliefSeaFloor::rangeAlong(const Vector3d& origin, const Vector3d& direction) const

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floor_view.h"
+#include "row_kernels.h"
 
 namespace posidonia
 {
@@ -12,25 +13,19 @@ using Eigen::Vector3d;
 
 namespace
 {
-/** Bilinear value of a level at (column, row), which the caller keeps inside. */
-inline float sampled(const cv::Mat& level, double col, double row)
+TLevelView viewOf(const cv::Mat& level, size_t n)
 {
-	const int i = static_cast<int>(col), j = static_cast<int>(row);
-	const float fx = static_cast<float>(col - i), fy = static_cast<float>(row - j);
-	const uint8_t *p = level.data + static_cast<size_t>(j) * level.step.p[0] + i, *q = p + level.step.p[0];
-	const float top = static_cast<float>(p[0]) + fx * static_cast<float>(p[1] - p[0]);
-	const float bottom = static_cast<float>(q[0]) + fx * static_cast<float>(q[1] - q[0]);
-	return top + fy * (bottom - top);
+	return {
+		level.data, static_cast<int>(level.step.p[0]), 1.0 / static_cast<double>(size_t(1) << n),
+		level.cols - 1.001, level.rows - 1.001};
 }
 
-/** A point of level 0, in pixel areas (column + 0.5: areas, not centres, nest from level to level), on level
- * n, kept inside: beyond the texture its border goes on. */
-float levelValue(const cv::Mat& level, size_t n, double col, double row)
+/** Values of one level of the texture at the pixels [first, end) of a row. */
+void sampleLevel(const TLevelView& level, size_t first, size_t end, TPixelRow& row, std::vector<float>& out)
 {
-	const double scale = 1.0 / static_cast<double>(size_t(1) << n);
-	return sampled(
-		level, std::min(std::max(col * scale - 0.5, 0.0), level.cols - 1.001),
-		std::min(std::max(row * scale - 0.5, 0.0), level.rows - 1.001));
+	texelsAt(
+		level, &row.col[first], &row.row[first],
+		{&row.work_at[first], &row.work_x[first], &row.work_y[first]}, &out[first], end - first);
 }
 }  // namespace
 
@@ -47,6 +42,9 @@ CFloorRenderer::CFloorRenderer(
 	  m_sensor(camera, optics.camera)
 {
 	m_sensor.mask(m_rays.lit);
+	for (size_t n = 0; n < texture.levels().size(); n++)
+		m_level_views.push_back(viewOf(texture.levels()[n], n));
+	m_level_views.push_back(m_level_views.back());	// the last has no coarser one to blend with
 	for (int i = 0; i < 4096; i++)
 		m_levels.push_back(levelsAt(i * static_cast<double>(TMipLevels::kStep)));
 	for (int v = 0; v < camera.height; v++)
@@ -68,8 +66,8 @@ TMipLevels CFloorRenderer::levelsAt(double depth) const
 	// Level whose pixels are as wide as a picture pixel's footprint; between two levels, a blend.
 	const double footprint = depth / m_rays.focal, last = static_cast<double>(m_texture.levels().size() - 1);
 	const double level = std::clamp(std::log2(footprint / m_texture.resolution()), 0.0, last);
-	const size_t fine = static_cast<size_t>(level);
-	return {fine, static_cast<float>(level - static_cast<double>(fine))};
+	const uint8_t fine = static_cast<uint8_t>(level);
+	return {fine, static_cast<float>(level - fine)};
 }
 
 std::unique_ptr<const CFloorView> CFloorRenderer::viewFrom(const TMoment& moment) const
@@ -104,8 +102,13 @@ cv::Mat CFloorRenderer::render(
 		std::fill(row.light.begin(), row.light.end(), 0.0f);
 		for (const auto& view : views)
 			addLight(*view, murky, v, row);
-		for (int u = 0; u < m_camera.width; u++)
-			row.light[u] = row.light[u] * share + (snow.empty() ? 0 : snow(v, u));
+		if (exposure.size() > 1)
+			for (float& light : row.light)
+				light *= share;
+		if (!snow.empty())
+			std::transform(
+				row.light.begin(), row.light.end(), snow.ptr<float>(v), row.light.begin(),
+				std::plus<float>());
 		m_sensor.develop(
 			v, row.light.data(), mixed(noise_seed, static_cast<uint64_t>(v)), picture.ptr<uint8_t>(v));
 	}
@@ -115,15 +118,17 @@ cv::Mat CFloorRenderer::render(
 void CFloorRenderer::addLight(const CFloorView& view, const CWaterTables& water, int v, TPixelRow& row) const
 {
 	view.intersectRow(v, row);
-	const auto& levels = m_texture.levels();
-	for (int u = 0; u < m_camera.width; u++) {
-		const auto [n, share] = row.levels[u];
-		const size_t next = std::min(n + 1, levels.size() - 1);
-		const float a = levelValue(levels[n], n, row.col[u], row.row[u]);
-		const float b = levelValue(levels[next], next, row.col[u], row.row[u]);
-		const float radiance = (a + share * (b - a)) * row.irradiance[u];
-		row.light[u] += radiance * water.direct(row.way[u]) + water.veil(row.range[u]);
+	const size_t width = row.light.size();
+	for (size_t first = 0, end; first < width; first = end) {  // runs of one level
+		for (end = first; end < width && row.level[end] == row.level[first];)
+			end++;
+		sampleLevel(m_level_views[row.level[first]], first, end, row, row.radiance);
+		sampleLevel(m_level_views[row.level[first] + 1u], first, end, row, row.coarse);
 	}
+	blend(row.radiance.data(), row.coarse.data(), row.share.data(), width);
+	addThroughWater(
+		water.view(), {row.radiance.data(), row.irradiance.data(), row.way.data(), row.range.data()},
+		row.light.data(), width);
 }
 
 cv::Mat1f CFloorRenderer::depths(const Isometry3d& T_map_camera) const
@@ -131,7 +136,7 @@ cv::Mat1f CFloorRenderer::depths(const Isometry3d& T_map_camera) const
 	cv::Mat1f depths = m_floor->rangesAlong(m_rays, T_map_camera);
 	float* value = depths.ptr<float>();
 	for (size_t i = 0; i < m_rays.size(); i++)
-		value[i] = m_rays.origin_z[i] + value[i] * m_rays.z[i];
+		value[i] = m_rays.origin.z[i] + value[i] * m_rays.direction.z[i];
 	return depths;
 }
 

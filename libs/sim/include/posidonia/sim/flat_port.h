@@ -33,18 +33,30 @@ struct TPortOptions
 	}
 };
 
-/** The rays of a picture's pixels in the camera's axes, row by row: where each begins in the water [m] and
- * its unit direction. */
+/** Three numbers a pixel, row by row. */
+struct TPixelVectors
+{
+	std::vector<float> x, y, z;
+	explicit TPixelVectors(size_t n = 0) : x(n), y(n), z(n) {}
+	void push_back(double x_i, double y_i, double z_i)
+	{
+		x.push_back(static_cast<float>(x_i));
+		y.push_back(static_cast<float>(y_i));
+		z.push_back(static_cast<float>(z_i));
+	}
+	Eigen::Vector3f operator[](size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/** The rays of a picture's pixels in the camera's axes. */
 struct TViewRays
 {
 	int width{0}, height{0};
-	double focal{0};  ///< Pixels of picture a radian near the axis, in the water [px]
-	std::vector<float> origin_x, origin_y, origin_z, x, y, z;
+	double focal{0};		   ///< Pixels of picture a radian near the axis, in the water [px]
+	TPixelVectors origin;	   ///< Where they begin in the water [m]
+	TPixelVectors direction;   ///< Unit vectors
 	std::vector<uint8_t> lit;  ///< 0: no ray of the water can reach this pixel
 
-	size_t size() const { return x.size(); }
-	Eigen::Vector3d originOf(size_t i) const { return {origin_x[i], origin_y[i], origin_z[i]}; }
-	Eigen::Vector3d directionOf(size_t i) const { return {x[i], y[i], z[i]}; }
+	size_t size() const { return lit.size(); }
 };
 
 /** Those of the ideal pin-hole, or behind the port. */

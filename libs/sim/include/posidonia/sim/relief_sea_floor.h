@@ -17,7 +17,8 @@ class CReliefSeaFloor : public CSeaFloor
 
 	double depthAt(const Eigen::Vector2d& north_east) const override;
 	double rangeAlong(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const override;
-	Eigen::Vector2f gradientAt(const Eigen::Vector2d& north_east) const override;
+	void gradientsAt(const std::vector<float>& north, const std::vector<float>& east, TGradients& gradients)
+		const override;
 	/** Whole pictures: some rays by Embree, those between them by Newton's method from their neighbours'. */
 	cv::Mat1f rangesAlong(const TViewRays& rays, const Eigen::Isometry3d& T_map_camera) const override;
 

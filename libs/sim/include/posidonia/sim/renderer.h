@@ -12,6 +12,7 @@
 namespace posidonia
 {
 class CFloorView;
+struct TLevelView;
 struct TMipLevels;
 struct TPixelRow;
 
@@ -81,6 +82,7 @@ class CFloorRenderer
 	TViewRays m_rays;
 	CWaterTables m_water;
 	CCameraSensor m_sensor;
+	std::vector<TLevelView> m_level_views;
 	std::vector<TMipLevels> m_levels;  ///< By depth along the axis, TMipLevels::kStep apart
 	std::vector<float> m_ray_length;   ///< By pixel: of the pin-hole's ray with unit depth
 };

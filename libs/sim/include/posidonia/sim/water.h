@@ -36,6 +36,13 @@ struct TWaterCoefficients
 /** Those of the options: the explicit ones, or of the Jerlov type. */
 TWaterCoefficients coefficientsOf(const TWaterOptions& options);
 
+/** Tables by length of the way: entries `step` [m] apart, `last` the last index. */
+struct TWaterView
+{
+	const float *direct, *veil;
+	float step, last;
+};
+
 /** What is left of the floor's light and what the water adds, by length of the way, in steps of 5 mm. */
 class CWaterTables
 {
@@ -47,6 +54,8 @@ class CWaterTables
 	float direct(float way) const { return m_direct[index(way)]; }
 	/** Grey that the water adds before a point `range` [m] away. */
 	float veil(float range) const { return m_veil[index(range)]; }
+
+	TWaterView view() const { return {m_direct.data(), m_veil.data(), kStep, kSteps - 1.0f}; }
 
    private:
 	static constexpr float kStep = 0.005f;	///< [m]
