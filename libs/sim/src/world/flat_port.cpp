@@ -1,3 +1,4 @@
+#include <posidonia/base/error.h>
 #include <posidonia/sim/flat_port.h>
 
 #include <cmath>
@@ -9,8 +10,8 @@ namespace posidonia
 {
 namespace
 {
-/** Sines in air below one, so that tangents stay finite. */
-constexpr double kGrazing = 0.9999;
+/** No lens looks farther off its axis than 80 degrees: the sine of that. */
+constexpr double kWidest = 0.985;
 
 double tangent(double sine)
 {
@@ -27,7 +28,7 @@ double radiusAt(const TPortOptions& port, double sine_air, double z)
 /** Sine in air of the ray that passes `radius` at `z`, by bisection: the radius grows with the sine. */
 double sineThrough(const TPortOptions& port, double radius, double z)
 {
-	double low = 0, high = kGrazing;
+	double low = 0, high = kWidest;
 	for (int i = 0; i < 50; i++) {
 		const double middle = (low + high) / 2;
 		(radiusAt(port, middle, z) < radius ? low : high) = middle;
@@ -44,7 +45,7 @@ void addPortRay(const TPortOptions& port, double x, double y, TViewRays& rays)
 	const double along_x = slope > 0 ? x / slope : 0, along_y = slope > 0 ? y / slope : 0;
 	rays.origin.push_back(along_x * ray.radius, along_y * ray.radius, port.distance + port.glass);
 	rays.direction.push_back(along_x * ray.sine, along_y * ray.sine, ray.cosine);
-	rays.lit.push_back(z > 0 && radiusAt(port, kGrazing, z) < slope * z ? 0 : 1);
+	rays.lit.push_back(z > 0 && radiusAt(port, kWidest, z) < slope * z ? 0 : 1);
 }
 
 void addPinHoleRay(double x, double y, TViewRays& rays)
@@ -66,6 +67,8 @@ TPortRay throughPort(const TPortOptions& port, double sine_air)
 
 TViewRays viewRays(const TStereoCamera& camera, const TPortOptions& port)
 {
+	if (port.flat() && port.rectified_at > 0 && port.rectified_at <= port.distance + port.glass)
+		throw CError("[Port] rectified_at", "lies within the port", "make it larger, or 0");
 	TViewRays rays;
 	rays.width = camera.width, rays.height = camera.height;
 	rays.focal = port.flat() && port.rectified_at == 0 ? port.n_water * camera.fx : camera.fx;

@@ -155,7 +155,7 @@ TExtremes extremesOf(const cv::Mat1f& height)
 cv::Mat1f filledWithHills(const cv::Mat1f& base, const cv::Mat1f& hills, double half)
 {
 	const double bare = extremesOf(base).range();
-	if (bare > 2 * half)
+	if (bare > 2 * half + 1e-6)
 		throw CError(
 			"[Relief]",
 			"slope, ripples and boulders alone are " + std::to_string(bare) + " m high, more than +-height",
@@ -196,7 +196,8 @@ void layPicture(const TReliefOptions& o, double blend, const TGrid& grid, cv::Ma
 	const cv::Mat1f raw = readHeights(o);
 	const double scale = o.image_width / grid.resolution / raw.cols;
 	cv::resize(raw, picture, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
-	const TExtremes e = extremesOf(picture);
+	const TExtremes e = extremesOf(raw);
+	picture = cv::min(cv::max(picture, e.low), e.high);	 // a cubic overshoots
 	const double gain = e.range() > 0 ? 2 * o.height / e.range() : 0;
 	const int top = (heights.rows - picture.rows) / 2, left = (heights.cols - picture.cols) / 2;
 	for (int j = std::max(0, -top); j < std::min(picture.rows, heights.rows - top); j++)

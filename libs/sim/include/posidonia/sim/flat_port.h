@@ -59,7 +59,7 @@ struct TViewRays
 	size_t size() const { return lit.size(); }
 };
 
-/** Those of the ideal pin-hole, or behind the port. */
+/** Those of the ideal pin-hole, or behind the port. Throws CError when rectified_at lies within the port. */
 TViewRays viewRays(const TStereoCamera& camera, const TPortOptions& port);
 
 /** A ray behind the port in the plane through the optical axis: begins at (radius, distance + glass). */
