@@ -42,7 +42,8 @@ TEST(GraphSlamApp, FilesHoldWhatMemoryHolds)
 	for (const auto& row : readLoops(folder + "loops.csv"))
 		accepted += row.accepted();
 	EXPECT_EQ(accepted, r.counts.sequential_edges + r.counts.roi_edges);
-	EXPECT_EQ(linesWith(g2o, "EDGE_SE3:QUAT"), r.counts.nodes - 1 + accepted) << "odometry edges and accepted ones";
+	EXPECT_EQ(linesWith(g2o, "EDGE_SE3:QUAT"), r.counts.nodes - 1 + accepted)
+		<< "odometry edges and accepted ones";
 
 	const TMetrics rows = readMetricsJson(folder + "metrics.json");
 	ASSERT_EQ(rows.size(), r.metrics.size());

@@ -244,7 +244,7 @@ TEST(SafetyInClosedLoop, EmergencySurfacingNeedsNoNavigation)
 	const TRun run = withFault(
 		plant,
 		[](double since, CPlant&, TControlState& s, TVehicleHealth& h) {
-			s = TControlState();	 // nothing at all
+			s = TControlState();  // nothing at all
 			h.navigation_age = h.depth_age = since;
 		},
 		120);

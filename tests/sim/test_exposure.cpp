@@ -2,11 +2,11 @@
 #include <posidonia/base/error.h>
 #include <posidonia/sim/survey_simulator.h>
 
+#include <posidonia/sim/random.h>
 #include <cmath>
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <posidonia/sim/random.h>
 
 #include "temp_folder.h"
 #include "world_test_tools.h"

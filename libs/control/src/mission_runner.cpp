@@ -49,8 +49,7 @@ void CMissionRunner::end(
 }
 
 TGuidanceCommand CMissionRunner::update(
-	const TControlState& navigation, const Vector2d& current, double dt,
-	std::vector<TMissionEvent>& events)
+	const TControlState& navigation, const Vector2d& current, double dt, std::vector<TMissionEvent>& events)
 {
 	if (!m_started) begin(navigation, current, events);
 	m_started = true;

@@ -54,8 +54,7 @@ TGreyPair CSimulatedVehicle::photograph(const TMeasurement& pair) const
 	T_map_body.translation() += late * pair.truth.v_map;
 	T_map_body.linear() *= expSO3(late * pair.truth.omega_body);
 	TGreyPair pictures = m_scene.photograph(
-		TExposure{
-			T_map_body, pair.truth.v_body, pair.truth.omega_body, m_faults.turbidity(pair.truth.t)},
+		TExposure{T_map_body, pair.truth.v_body, pair.truth.omega_body, m_faults.turbidity(pair.truth.t)},
 		pair.frame.value());
 	if (m_faults.blackout(pair.truth.t)) {
 		pictures.left.setTo(0);

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <posidonia/control/allocation.h>
+#include <posidonia/control/control_state.h>
 #include <posidonia/control/current_observer.h>
 #include <posidonia/control/mission.h>
 #include <posidonia/control/mission_runner.h>
-#include <posidonia/control/control_state.h>
 #include <posidonia/control/pose_controller.h>
 #include <posidonia/control/safety_supervisor.h>
 #include <posidonia/control/velocity_controller.h>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <posidonia/control/control_state.h>
 #include <posidonia/control/guidance_options.h>
 #include <posidonia/control/mission.h>
-#include <posidonia/control/control_state.h>
 
 namespace posidonia
 {

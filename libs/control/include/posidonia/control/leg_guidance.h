@@ -1,9 +1,9 @@
 #pragma once
 
+#include <posidonia/control/control_state.h>
 #include <posidonia/control/guidance_command.h>
 #include <posidonia/control/leg_progress.h>
 #include <posidonia/control/line_of_sight.h>
-#include <posidonia/control/control_state.h>
 #include <posidonia/control/station_keeping.h>
 
 namespace posidonia

@@ -31,8 +31,7 @@ class CMissionRunner
 
    private:
 	void begin(
-		const TControlState& navigation, const Eigen::Vector2d& current,
-		std::vector<TMissionEvent>& events);
+		const TControlState& navigation, const Eigen::Vector2d& current, std::vector<TMissionEvent>& events);
 	void end(
 		EMissionEvent how, const TControlState& navigation, const Eigen::Vector2d& current,
 		std::vector<TMissionEvent>& events);

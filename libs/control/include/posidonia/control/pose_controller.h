@@ -2,8 +2,8 @@
 
 #include <posidonia/base/options.h>
 #include <posidonia/control/commands.h>
-#include <posidonia/control/guidance_command.h>
 #include <posidonia/control/control_state.h>
+#include <posidonia/control/guidance_command.h>
 
 namespace posidonia
 {

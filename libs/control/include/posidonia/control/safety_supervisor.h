@@ -23,7 +23,7 @@ std::string toString(ESafetyLevel level);
 /** What a rule looks at. */
 struct TSafetyInput
 {
-	const TControlState& navigation;	 ///< The last one; valid only when health says that it is fresh
+	const TControlState& navigation;  ///< The last one; valid only when health says that it is fresh
 	const TVehicleHealth& health;
 	double mission_timeout{3600};  ///< [s]
 	double emergency_for{0};	   ///< Since the emergency surfacing began, 0 before [s]
