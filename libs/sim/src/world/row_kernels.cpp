@@ -12,6 +12,16 @@
 
 namespace posidonia
 {
+namespace
+{
+/** x in [0, last]; 0 where x is no number. */
+template <class T>
+inline T inside(T x, T last)
+{
+	return std::min(last, std::max(T(0), x));
+}
+}  // namespace
+
 POSIDONIA_CLONES
 void turnRow(const float* R, const float* offset, TConstRowOf3 p, TRowOf3 q, size_t n)
 {
@@ -37,8 +47,7 @@ void stepToSurface(
 		const float r = range[u];
 		const float col = g.centre_col + (from.y[u] + r * along.y[u]) * g.per_metre;
 		const float row = g.centre_row - (from.x[u] + r * along.x[u]) * g.per_metre;
-		const float x = std::min(std::max(col, 0.0f), g.last_col),
-					y = std::min(std::max(row, 0.0f), g.last_row);
+		const float x = inside(col, g.last_col), y = inside(row, g.last_row);
 		const int i = static_cast<int>(x), j = static_cast<int>(y), at = j * g.stride + i;
 		const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
 		const float a = g.data[at], b = g.data[at + 1], c = g.data[at + g.stride],
@@ -64,8 +73,7 @@ void valuesAt(const TGridView& grid, const float* north, const float* east, floa
 #pragma omp simd
 	for (size_t u = 0; u < n; u++) {
 		const float col = g.centre_col + east[u] * g.per_metre, row = g.centre_row - north[u] * g.per_metre;
-		const float x = std::min(std::max(col, 0.0f), g.last_col),
-					y = std::min(std::max(row, 0.0f), g.last_row);
+		const float x = inside(col, g.last_col), y = inside(row, g.last_row);
 		const int i = static_cast<int>(x), j = static_cast<int>(y), at = j * g.stride + i;
 		const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
 		const float a = g.data[at], b = g.data[at + 1], c = g.data[at + g.stride],
@@ -116,7 +124,7 @@ void placeTexels(
 #pragma omp simd
 	for (size_t u = 0; u < n; u++) {
 		const double c = col[u] * g.scale - 0.5, r = row[u] * g.scale - 0.5;
-		const double x = std::min(std::max(c, 0.0), g.last_col), y = std::min(std::max(r, 0.0), g.last_row);
+		const double x = inside(c, g.last_col), y = inside(r, g.last_row);
 		const int i = static_cast<int>(x), j = static_cast<int>(y);
 		at[u] = j * g.stride + i;
 		fx[u] = static_cast<float>(x - i), fy[u] = static_cast<float>(y - j);
@@ -145,7 +153,7 @@ void addThroughWater(const TWaterView& water, const TRadianceRow& row, float* li
 #pragma omp simd
 	for (size_t u = 0; u < n; u++) {
 		const float way = r.way[u] / w.step + 0.5f, range = r.range[u] / w.step + 0.5f;
-		const int i = static_cast<int>(std::min(way, w.last)), j = static_cast<int>(std::min(range, w.last));
+		const int i = static_cast<int>(inside(way, w.last)), j = static_cast<int>(inside(range, w.last));
 		light[u] += r.radiance[u] * r.irradiance[u] * w.direct[i] + w.veil[j];
 	}
 }
