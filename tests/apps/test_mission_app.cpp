@@ -40,7 +40,14 @@ class CTinyMission
 		args.insert(args.end(), more.begin(), more.end());
 		runApp(app, args);
 	}
-	CTempFolder folder;
+	CProgramFolder folder{"mission-" + std::to_string(made()++)};  ///< One shared by tests outlives them
+
+   private:
+	static int& made()
+	{
+		static int count = 0;
+		return count;
+	}
 };
 
 /** The tiny mission by SLAM, once in a program. */
