@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "survey_test_tools.h"
 #include "temp_folder.h"
 #include "world_test_tools.h"
 
@@ -248,22 +249,6 @@ TSimulationOptions reliefSurvey()
 	o.run.save_depth = true, o.run.overview = true;
 	return o;
 }
-TSensorSuite smallRig()
-{
-	TSensorSuite s = TSensorSuite::sparus2();
-	TStereoCamera& c = s.stereo.at("STEREO").camera;
-	c.width = 160, c.height = 120, c.fx = c.fy = 70.75, c.cx = 79.5, c.cy = 59.5;
-	return s;
-}
-std::map<std::string, std::string> contents(const std::string& folder)
-{
-	std::map<std::string, std::string> files;
-	for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-		if (entry.is_regular_file())
-			files[std::filesystem::relative(entry.path(), folder).string()] =
-				fileBytes(entry.path().string());
-	return files;
-}
 }  // namespace
 
 TEST(Scene, EverythingOnGivesTheSameBytesWithOneAndTwoThreads)
@@ -273,7 +258,7 @@ TEST(Scene, EverythingOnGivesTheSameBytesWithOneAndTwoThreads)
 	for (const int threads : {1, 2}) {
 		const CTempFolder folder;
 		o.run.threads = threads;
-		CSurveySimulator(o, smallRig()).run(folder / "survey");
+		CSurveySimulator(o, smallCamera()).run(folder / "survey");
 		runs[threads - 1] = contents(folder.path());
 	}
 	EXPECT_EQ(runs[0], runs[1]);
@@ -283,7 +268,7 @@ TEST(Scene, EverythingOnGivesTheSameBytesWithOneAndTwoThreads)
 TEST(Scene, DepthsOfKeptPairsAreWrittenInMillimetresAndTheWorldFromAbove)
 {
 	const CTempFolder folder;
-	CSurveySimulator simulator(reliefSurvey(), smallRig());
+	CSurveySimulator simulator(reliefSurvey(), smallCamera());
 	const auto summary = simulator.run(folder / "survey");
 	size_t checked = 0;
 	simulator.stream([&](const TSimulatedObservation& o) {

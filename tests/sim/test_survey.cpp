@@ -8,9 +8,11 @@
 
 #include <sstream>
 
+#include "survey_test_tools.h"
 #include "temp_folder.h"
 
 using namespace posidonia;
+using namespace posidonia::testing;
 using mrpt::obs::CObservationStereoImages;
 using posidonia::testing::CTempFolder;
 using posidonia::testing::errorOf;
@@ -26,23 +28,6 @@ TSimulationOptions shortSurvey()
 	o.route.way_points = {0, 0, 0, 2, 2, 2};
 	o.route.start[2] = 2.5;
 	return o;
-}
-TSensorSuite smallCamera()
-{
-	TSensorSuite s = TSensorSuite::sparus2();
-	TStereoCamera& c = s.stereo.at("STEREO").camera;
-	c.width = 160, c.height = 120, c.fx = c.fy = 70.75, c.cx = 79.5, c.cy = 59.5;
-	return s;
-}
-/** Every file of a folder with its bytes. */
-std::map<std::string, std::string> contents(const std::string& folder)
-{
-	std::map<std::string, std::string> files;
-	for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-		if (entry.is_regular_file())
-			files[std::filesystem::relative(entry.path(), folder).string()] =
-				fileBytes(entry.path().string());
-	return files;
 }
 std::map<std::string, std::string> runInto(const TSimulationOptions& o, const TSensorSuite& s = smallCamera())
 {

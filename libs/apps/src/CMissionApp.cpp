@@ -3,6 +3,7 @@
 #include <posidonia/apps/mission/realtime_pacer.h>
 #include <posidonia/apps/progress.h>
 #include <posidonia/apps/run_texts.h>
+#include <posidonia/apps/world_files.h>
 #include <posidonia/base/error.h>
 #include <posidonia/base/files.h>
 #include <posidonia/eval/trajectory_io.h>
@@ -32,14 +33,13 @@ bool CMissionApp::initialize(int argc, const char* const* argv)
 		std::cout << m_config;
 		return false;
 	}
-	params.simulation.floor.image = line.besideConfig(params.simulation.floor.image);
+	findWorldFiles(params.simulation, line);
 	if (params.closed_loop.mission.empty())
 		throw CError("[ClosedLoop] mission", "is missing", "name a mission file");
 	loadMissionFile(line.besideConfig(params.closed_loop.mission));
 	m_verbosity = line.verbosity();
 	m_realtime = realtime.getValue();
-	m_name = line.configName();
-	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_name);
+	m_folder = std::make_unique<CRunFolder>(line.outputDir(), line.configName());
 	return true;
 }
 

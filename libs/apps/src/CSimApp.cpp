@@ -1,5 +1,6 @@
 #include <posidonia/apps/CSimApp.h>
 #include <posidonia/apps/progress.h>
+#include <posidonia/apps/world_files.h>
 #include <posidonia/base/files.h>
 
 #include <cstdio>
@@ -25,8 +26,7 @@ bool CSimApp::initialize(int argc, const char* const* argv)
 		std::cout << ini.dump();
 		return false;
 	}
-	for (std::string* image : {&params.simulation.floor.image, &params.simulation.relief.image})
-		*image = line.besideConfig(*image);
+	findWorldFiles(params.simulation, line);
 	m_verbosity = line.verbosity();
 	const std::string folder = line.outputDir().empty() ? "data" : line.outputDir();
 	m_prefix = folder + "/" + (output_name.isSet() ? output_name.getValue() : line.configName());

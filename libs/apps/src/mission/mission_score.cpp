@@ -1,6 +1,7 @@
 #include <mrpt/core/format.h>
 #include <posidonia/apps/mission/mission_plots.h>
 #include <posidonia/apps/mission/mission_score.h>
+#include <posidonia/eval/path.h>
 #include <posidonia/eval/statistics.h>
 
 #include <algorithm>
@@ -74,15 +75,12 @@ void addChanges(
 
 double wayOf(const std::vector<TControlStep>& steps)
 {
-	double way = 0;
-	for (size_t k = 1; k < steps.size(); k++)
-		way += (truePosition(steps[k]) - truePosition(steps[k - 1])).norm();
-	return way;
+	std::vector<Vector3d> positions;
+	for (const TControlStep& step : steps)
+		positions.push_back(truePosition(step));
+	return travelled(positions).back();
 }
-}  // namespace
 
-namespace
-{
 /** The last point that the mission names. */
 std::optional<Vector2d> lastPoint(const TMission& mission)
 {

@@ -43,7 +43,7 @@ class CMissionApp
 
 	TSensorSuite m_sensors;
 	TMission m_mission;
-	std::string m_config, m_mission_text, m_name;
+	std::string m_config, m_mission_text;
 	std::unique_ptr<CRunFolder> m_folder;
 	int m_verbosity{1};
 	bool m_realtime{false};

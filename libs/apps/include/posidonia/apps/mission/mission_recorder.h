@@ -31,7 +31,6 @@ class CMissionRecorder
 	void finish();
 
 	const std::string& rawlog() const { return m_rawlog; }
-	const TTrajectory& truth() const { return m_truth; }
 
    private:
 	std::string m_prefix, m_rawlog, m_images;
