@@ -1,8 +1,7 @@
 #include <mrpt/obs/CObservationComment.h>
-#include <posidonia/apps/CMissionApp.h>
 #include <posidonia/obs/rawlog_reader.h>
 
-#include "apps_testing.h"
+#include "mission_testing.h"
 
 namespace fs = std::filesystem;
 using namespace posidonia;
@@ -10,46 +9,6 @@ using namespace posidonia::testing;
 
 namespace
 {
-/** A U of 2 m legs at 3.5 m, and some seconds on station. */
-const char* const kMission = R"([Mission]
-speed = 0.4
-timeout = 200
-[Step.1]
-kind = route
-points = 0 2  0.6 2  0.6 0
-depth = 3.5
-[Step.2]
-kind = hold
-duration = 5
-)";
-
-/** The ini and the mission of a short dive; `more` goes to the end of the ini. */
-class CTinyMission
-{
-   public:
-	explicit CTinyMission(const std::string& more = "", const std::string& mission = kMission)
-	{
-		std::ofstream(folder / "tiny.ini") << tinySurveyIni() << "[ClosedLoop]\nmission = tiny-mission.ini\n"
-										   << more;
-		std::ofstream(folder / "tiny-mission.ini") << mission;
-	}
-	/** Runs it into `run`; further arguments at will. */
-	void fly(CMissionApp& app, const std::string& run, std::vector<std::string> more = {}) const
-	{
-		std::vector<std::string> args{"-c", folder / "tiny.ini", "-o", folder / run};
-		args.insert(args.end(), more.begin(), more.end());
-		runApp(app, args);
-	}
-	CProgramFolder folder{"mission-" + std::to_string(made()++)};  ///< One shared by tests outlives them
-
-   private:
-	static int& made()
-	{
-		static int count = 0;
-		return count;
-	}
-};
-
 /** The tiny mission by SLAM, once in a program. */
 const CMissionApp& slamMission()
 {
@@ -214,4 +173,43 @@ TEST(MissionApp, WrongInputNamesWhatIsWrong)
 	const CTinyMission nobody("[Fault.x]\nkind = drop_out\nlabel = NOBODY\ntime = 1\nduration = 1\n");
 	EXPECT_HOLDS(problemOf(nobody), "NOBODY");
 	EXPECT_FALSE(fs::exists(nobody.folder / "run/mission.rawlog"));
+}
+
+TEST(MissionApp, OverviewAndDepthsOnRequest)
+{
+	const CTinyMission mission("", "[Mission]\n[Step.1]\nkind = goto\nnorth = 0\neast = 1\ndepth = 3.5\n");
+	CMissionApp app;
+	mission.fly(app, "run", {"--set", "Simulation.overview=true", "--set", "Simulation.save_depth=true"});
+	const std::string& folder = app.results().folder;
+	EXPECT_TRUE(fs::exists(folder + "/mission.overview.png"));
+	size_t left = 0, depth = 0;
+	for (const auto& file : fs::directory_iterator(folder + "/mission_Images")) {
+		left += file.path().string().find("_left.png") != std::string::npos;
+		depth += file.path().string().find("_depth.png") != std::string::npos;
+	}
+	EXPECT_GT(left, 0u);
+	EXPECT_EQ(depth, left);
+}
+
+TEST(MissionApp, ThePapersTableSaysWhereTheVehicleTrulyEnded)
+{
+	const CTinyMission mission("[Report]\npaper_experiment = 2\n");
+	CMissionApp app;
+	mission.fly(app, "run");
+	const std::string log = fileBytes(app.results().folder + "/run.log");
+	EXPECT_HOLDS(log, "End (m)");
+	EXPECT_HOLDS(log, mrpt::format("%.3f", value(app, "mission.end_error.mean")));
+}
+
+TEST(MissionApp, AMissionOverTheEndOfTheFloorIsRefused)
+{
+	const CTinyMission mission("", "[Mission]\n[Step.1]\nkind = goto\nnorth = 0\neast = 30\ndepth = 3.5\n");
+	CMissionApp app;
+	try {
+		mission.fly(app, "run");
+		FAIL() << "it flew";
+	}
+	catch (const CError& problem) {
+		EXPECT_HOLDS(std::string(problem.what()), "extent");
+	}
 }

@@ -69,7 +69,18 @@ const std::vector<TCase>& cases()
 		{"battery warning", [](TVehicle& v) { v.health.battery = 0.226; },
 		 [](TVehicle& v) { v.health.battery = 0.224; }},
 		{"mission time-out", [](TVehicle& v) { v.health.mission_time = 3599; },
-		 [](TVehicle& v) { v.health.mission_time = 3601; }}};
+		 [](TVehicle& v) { v.health.mission_time = 3601; }},
+		{"never navigated",
+		 [](TVehicle& v) {
+			 v.navigation.valid = false;
+			 v.health.initialised_for = 0;
+			 v.health.mission_time = 3599;
+		 },
+		 [](TVehicle& v) {
+			 v.navigation.valid = false;
+			 v.health.initialised_for = 0;
+			 v.health.mission_time = 3601;
+		 }}};
 	return all;
 }
 

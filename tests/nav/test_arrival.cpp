@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "allocation_counter.h"
+#include <allocation_counter.h>
 #include "nav_simulator.h"
 #include "simulated_survey.h"
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "allocation_counter.h"
+#include <allocation_counter.h>
 
 using namespace posidonia;
 using namespace posidonia::testing;

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "../nav/allocation_counter.h"
+#include <allocation_counter.h>
 
 using namespace posidonia;
 

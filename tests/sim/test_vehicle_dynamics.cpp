@@ -3,7 +3,7 @@
 #include <cstring>
 #include <random>
 
-#include "../nav/allocation_counter.h"
+#include <allocation_counter.h>
 #include "random_pose.h"
 #include "vehicle_test_tools.h"
 

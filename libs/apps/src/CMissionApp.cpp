@@ -71,7 +71,7 @@ struct CMissionApp::TLoop
 		  recorder(folder.file("mission"), app.m_sensors),
 		  loop(
 			  {e.closed_loop, e.forced_correction, e.simulation.run.start_time,
-			   e.simulation.run.save_images == "all"},
+			   e.simulation.run.save_images == "all", e.simulation.run.save_depth},
 			  vehicle, computer, recorder)
 	{
 	}
@@ -85,6 +85,28 @@ struct CMissionApp::TLoop
 
 namespace
 {
+/** Where the mission leads the body [m, map]. */
+std::vector<Eigen::Vector3d> wayOf(const TMission& mission, const TSimulationOptions& world)
+{
+	std::vector<Eigen::Vector3d> way;
+	const auto& start = world.route.start;
+	way.emplace_back(start[0], start[1], start[2]);
+	for (const TStep& step : mission.steps) {
+		const Eigen::Vector2d at = step.has_end ? step.end : way.back().head<2>();
+		way.emplace_back(at.x(), at.y(), step.altitude_mode ? world.floor.depth - step.altitude : step.depth);
+	}
+	return way;
+}
+
+/** The reasons of the abort; empty when there was none. */
+std::string abortOf(const std::vector<TControlStep>& steps)
+{
+	for (const TControlStep& step : steps)
+		for (const TMissionEvent& event : step.output.events)
+			if (event.kind == EMissionEvent::MISSION_ABORTED) return event.text;
+	return {};
+}
+
 TTrajectory controllerPoses(const std::vector<TControlStep>& steps)
 {
 	TTrajectory poses;
@@ -103,14 +125,18 @@ void CMissionApp::run()
 	m_folder->write("mission.ini", m_mission_text);
 	writeSensors(m_folder->file("sensors.ini"), m_sensors);
 	TLoop loop(*this, params, *m_folder);
+	if (loop.vehicle.scene().hasCamera())
+		loop.vehicle.scene().requireFloorUnder(wayOf(m_mission, params.simulation));
 	fly(loop);
 	loop.recorder.finish();
 	m_results.rawlog = loop.recorder.rawlog();
 	loop.slam.makeExact();
 	m_results.trajectories.nodes = loop.slam.nodes();
 	m_results.trajectories.control = controllerPoses(m_results.steps);
+	m_results.aborted = abortOf(m_results.steps);
 	m_results.counts = countsOf(loop.slam);
 	writeResults(loop);
+	writeWorldFiles(loop);
 	score();
 	logSummary(loop);
 	m_folder->finish();
@@ -120,11 +146,10 @@ namespace
 {
 std::string progressText(const TControlStep& step, size_t steps)
 {
-	const double error =
-		(step.feedback.navigation.T_map_body.translation() - step.truth.T_map_body.translation()).norm();
+	if (!step.feedback.navigation.valid) return mrpt::format("%.0f s, no pose yet", step.t);
 	return mrpt::format(
 		"%.0f s, step %zu of %zu, pose error %.3f m, %d loops", step.t, std::min(step.output.step + 1, steps),
-		steps, error, step.loops);
+		steps, controlError(step), step.loops);
 }
 }  // namespace
 
@@ -159,9 +184,19 @@ void CMissionApp::writeResults(TLoop& loop)
 	writeTum(m_folder->file("control.tum"), m_results.trajectories.control);
 	m_folder->write("control.csv", controlCsv(m_results.steps));
 	m_folder->write("events.csv", eventsCsv(m_results.steps, params.simulation.run.start_time));
-	m_folder->write("mission.svg", plotMissionErrors(m_results.steps));
+	if (!m_results.trajectories.control.empty())
+		m_folder->write("mission.svg", plotMissionErrors(m_results.steps));
 	m_folder->write("commands.svg", plotCommands(m_results.steps));
 	m_folder->write("loop_timings.csv", timingsCsv(loop.loop.timer(), m_results.counts.nodes));
+}
+
+void CMissionApp::writeWorldFiles(const TLoop& loop) const
+{
+	if (!params.simulation.run.overview || !loop.vehicle.scene().hasCamera()) return;
+	std::vector<Eigen::Vector3d> way;
+	for (const auto& pose : loop.recorder.truth())
+		way.push_back(pose.T.translation());
+	loop.vehicle.scene().writeOverview(m_folder->file("mission.overview.png"), way);
 }
 
 void CMissionApp::score()
@@ -170,12 +205,13 @@ void CMissionApp::score()
 		m_results.metrics.insert(m_results.metrics.end(), rows.begin(), rows.end());
 	};
 	append(m_results.counts.metrics());
-	append(missionMetrics(m_results.steps, m_mission));
+	const TMetrics mission = missionMetrics(m_results.steps, m_mission);
+	append(mission);
 	append(jumpMetrics(m_results.steps, params.forced_correction.time));
 	if (m_results.counts.nodes > 0) {
 		const TScore score = scoreRun(
 			scoringOf(params, m_sensors), m_results.trajectories, m_folder->file("loops.csv"),
-			m_folder->file("mission.gt.tum"), *m_folder);
+			m_folder->file("mission.gt.tum"), *m_folder, mission);
 		append(score.metrics);
 		if (!score.text.empty()) m_folder->log(score.text, m_verbosity);
 		m_folder->log(scoreSummary(score.metrics), m_verbosity);
@@ -190,6 +226,8 @@ void CMissionApp::logSummary(TLoop& loop)
 	m_folder->log(m_results.counts.text(), m_verbosity);
 	m_folder->log(candidateCounts(loop.slam.map().candidates), m_verbosity);
 	m_folder->log(speedText(m_results.steps.back().t, m_results.seconds), m_verbosity);
+	if (!m_results.aborted.empty())
+		m_folder->log("mission ABORTED: " + m_results.aborted + " (events.csv says when)", m_verbosity + 1);
 	m_folder->log(navigationText(loop.slam.odometry()), m_verbosity - 1);
 	m_folder->log("run folder: " + m_folder->path(), m_verbosity);
 }

@@ -16,8 +16,9 @@ std::string versionText()
 	return std::string("Posidonia ") + kVersion +
 		   ": stereo graph-SLAM for AUVs, on MRPT\n"
 		   "BSD-3-Clause. SuiteSparse's AMD and CAMD (BSD-3) order the elimination; nothing of it that is "
-		   "GPL is "
-		   "linked.\n";
+		   "GPL "
+		   "is linked.\n"
+		   "Embree (Apache-2.0) traces the rays of simulated relief.\n";
 }
 
 namespace

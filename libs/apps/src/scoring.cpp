@@ -43,7 +43,15 @@ std::map<std::uint64_t, Eigen::Isometry3d> trueNodePoses(const TAssociation& nod
 	return poses;
 }
 
-std::string tableText(int experiment, const TRunScores& scores)
+/** Where the vehicle truly ended and went, when it kept station at the end. */
+void addSteering(TPaperRow& row, const TMetrics& mission)
+{
+	if (mission.empty()) return;
+	row.end_error = metric(mission, "mission.end_error.mean");
+	row.cross_track = metric(mission, "mission.cross_track.mean");
+}
+
+std::string tableText(int experiment, const TRunScores& scores, const TMetrics& mission)
 {
 	if (experiment == 0) return {};
 	const auto mean = [](const TRunEvaluation& e) { return e.absolute[0].translation.mean; };
@@ -54,8 +62,10 @@ std::string tableText(int experiment, const TRunScores& scores)
 		{"Odometry", odom.length, mean(odom)},
 		{"Posidonia (nodes)", nodes.length, mean(nodes)},
 		{"Posidonia (causal)", slam.length, mean(slam)}};
-	if (const auto* control = scores.find("control"))
+	if (const auto* control = scores.find("control")) {
 		rows.push_back({"Posidonia (in control)", control->length, mean(*control)});
+		addSteering(rows.back(), mission);
+	}
 	return paperTable(experiment, rows);
 }
 }  // namespace
@@ -98,7 +108,7 @@ TRunScores evaluateTrajectories(
 
 TScore scoreRun(
 	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv,
-	const std::string& truth_file, const CRunFolder& folder)
+	const std::string& truth_file, const CRunFolder& folder, const TMetrics& mission)
 {
 	const TTrajectory truth = readTum(truth_file);
 	const auto loops = readLoops(loops_csv);
@@ -111,6 +121,6 @@ TScore scoreRun(
 								{title, run.odom, truth, run.nodes, loopSegments(loops, run.nodes),
 								 rejectedLoopSegments(loops, run.nodes)}));
 	folder.write("error.svg", plotErrors({title, errors("odom"), errors("nodes")}));
-	return {scores.metrics(), tableText(scoring.paper_experiment, scores)};
+	return {scores.metrics(), tableText(scoring.paper_experiment, scores, mission)};
 }
 }  // namespace posidonia

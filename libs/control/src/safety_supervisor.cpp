@@ -9,14 +9,13 @@ namespace
 using IN = TSafetyInput;
 using LIMITS = TSafetyOptions;
 
-constexpr double kAfloat = 0.5;	   // Nearer to the surface the vehicle counts as up, or as not yet down [m]
 constexpr double kGpsDepth = 1.0;  // COLA2: deeper, no GPS is expected [m]
 
 bool tooLow(const IN& in, const LIMITS& limits)
 {
 	const auto& navigation = in.navigation;
 	return isFresh(navigation, in.health, limits) && navigation.altitude && *navigation.altitude > 0 &&
-		   *navigation.altitude < limits.min_altitude && navigation.depth() > kAfloat;
+		   *navigation.altitude < limits.min_altitude && !navigation.afloat();
 }
 
 bool deeperThan(double depth, const IN& in, const LIMITS& limits)
@@ -33,7 +32,7 @@ bool outsideCage(const IN& in, const LIMITS& limits)
 
 bool stillUnderWater(const IN& in, const LIMITS& limits)
 {
-	const bool afloat = isFresh(in.navigation, in.health, limits) && in.navigation.depth() < kAfloat;
+	const bool afloat = isFresh(in.navigation, in.health, limits) && in.navigation.afloat();
 	return in.emergency_for > limits.drop_weight_after && !afloat;
 }
 
@@ -96,6 +95,8 @@ const std::vector<TSafetyRule>& safetyRules()
 			[](const IN& in, const LIMITS& l) { return in.health.battery < 1.5 * l.min_battery; }},
 		{"mission time-out", "mission time > limit", "[Mission] timeout", L::ABORT_AND_SURFACE, false,
 			[](const IN& in, const LIMITS&) { return in.health.mission_time > in.mission_timeout; }},
+		{"never navigated", "mission time > limit, no pose yet", "[Mission] timeout", L::EMERGENCY_SURFACE, false,
+			[](const IN& in, const LIMITS&) { return in.health.mission_time > in.mission_timeout && !in.navigation.valid; }},
 		{"not rising", "emergency for > limit, not afloat", "drop_weight_after", L::DROP_WEIGHT, false, stillUnderWater},
 	};
 	// clang-format on

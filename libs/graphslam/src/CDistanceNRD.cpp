@@ -17,16 +17,9 @@ bool CDistanceNRD::updateState(CActionCollection::Ptr, CSensoryFrame::Ptr, CObse
 		return true;
 	}
 	const TPoseEstimate since_node = m_parts->odometry.sinceClone();
-	if (!farEnough(since_node.T.translation().norm())) return false;
+	if (!m_distance.reached(since_node.T.translation().norm(), m_parts->options.node.distance)) return false;
 	registerNode(stampOf(*pair), since_node);
 	return true;
-}
-
-bool CDistanceNRD::farEnough(double displacement)
-{
-	const double step = std::abs(displacement - m_last_displacement);
-	m_last_displacement = displacement;
-	return displacement >= m_parts->options.node.distance - step / 2;
 }
 
 void CDistanceNRD::registerRoot(double stamp)
@@ -45,7 +38,6 @@ void CDistanceNRD::registerNode(double stamp, const TPoseEstimate& since_node)
 	map.addEdge(
 		{from, from + 1, EEdgeKind::ODOMETRY, since_node.T, since_node.cov.inverse(),
 		 since_node.path_length});
-	m_last_displacement = 0;
 }
 
 TSlamGraph::global_pose_t CDistanceNRD::getCurrentRobotPosEstimation() const

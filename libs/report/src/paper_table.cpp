@@ -3,6 +3,7 @@
 #include <posidonia/eval/text_table.h>
 #include <posidonia/report/paper_table.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,21 +33,32 @@ TPaperTable published(int experiment)
 }
 
 /** Ours with a digit more: centimetres would hide it. */
-void addRows(CTextTable& table, const std::string& whose, const std::vector<TPaperRow>& rows, int decimals)
+void addRows(
+	CTextTable& table, const std::string& whose, const std::vector<TPaperRow>& rows, int decimals,
+	bool steers)
 {
-	for (const auto& row : rows)
-		table.add(
-			{whose + row.input, fixedText(row.length, 2),
-			 std::isfinite(row.mean_error) ? fixedText(row.mean_error, decimals) : "-"});
+	const auto text = [&](double value) {
+		return std::isfinite(value) ? fixedText(value, decimals) : std::string("-");
+	};
+	for (const auto& row : rows) {
+		std::vector<std::string> cells{whose + row.input, fixedText(row.length, 2), text(row.mean_error)};
+		if (steers) cells.insert(cells.end(), {text(row.end_error), text(row.cross_track)});
+		table.add(cells);
+	}
 }
 }  // namespace
 
 std::string paperTable(int experiment, const std::vector<TPaperRow>& ours)
 {
 	const TPaperTable paper = published(experiment);
-	CTextTable table({"Input", "Traj. Dist. (m)", "Trans. ME (m)"});
-	addRows(table, "paper: ", paper.rows, 2);
-	addRows(table, "ours:  ", ours, 3);
+	const bool steers = std::any_of(ours.begin(), ours.end(), [](const TPaperRow& r) {
+		return std::isfinite(r.end_error) || std::isfinite(r.cross_track);
+	});
+	std::vector<std::string> header{"Input", "Traj. Dist. (m)", "Trans. ME (m)"};
+	if (steers) header.insert(header.end(), {"End (m)", "Cross-track (m)"});
+	CTextTable table(header);
+	addRows(table, "paper: ", paper.rows, 2, steers);
+	addRows(table, "ours:  ", ours, 3, steers);
 	return paper.title + '\n' + table.text();
 }
 }  // namespace posidonia

@@ -2,6 +2,7 @@
 #include <posidonia/base/files.h>
 #include <posidonia/obs/rawlog_writer.h>
 #include <posidonia/obs/register_observations.h>
+#include <posidonia/sim/pair_files.h>
 #include <posidonia/sim/survey_simulator.h>
 
 #include <atomic>
@@ -10,36 +11,12 @@
 #include <mutex>
 #include <thread>
 
-#include <posidonia/sim/png_file.h>
-
 namespace posidonia
 {
 using mrpt::obs::CObservationStereoImages;
 
 namespace
 {
-/** The pictures of one pair as PNG files; returns their bytes. */
-uint64_t writePictures(
-	const TGreyPair& pictures, const CObservationStereoImages& pair, const std::string& folder)
-{
-	return writePng(folder + "/" + pair.imageLeft.getExternalStorageFile(), pictures.left) +
-		   writePng(folder + "/" + pair.imageRight.getExternalStorageFile(), pictures.right);
-}
-
-/** LABEL_000012_depth.png beside LABEL_000012_left.png: millimetres, 0 where there is none (or too far). */
-uint64_t writeDepths(const cv::Mat1f& metres, const CObservationStereoImages& pair, const std::string& folder)
-{
-	cv::Mat1w millimetres(metres.size());
-	for (int v = 0; v < metres.rows; v++)
-		for (int u = 0; u < metres.cols; u++) {
-			const float mm = 1000 * metres(v, u);
-			millimetres(v, u) = mm > 0 && mm < 65535 ? static_cast<uint16_t>(mm + 0.5f) : uint16_t(0);
-		}
-	std::string name = pair.imageLeft.getExternalStorageFile();
-	name.replace(name.rfind("_left"), std::string::npos, "_depth.png");
-	return writePng(folder + "/" + name, millimetres);
-}
-
 /** job(0) ... job(n - 1) on `threads` threads; the first exception is thrown again here. */
 void inParallel(size_t n, int threads, const std::function<void(size_t)>& job)
 {

@@ -57,6 +57,7 @@ void CClosedLoop::takePair(const CSimulatedVehicle::TMeasurement& pair)
 	}
 	auto logged = std::dynamic_pointer_cast<CObservationStereoImages>(m_recorder.write(*pair.observation));
 	m_recorder.write(*logged, pictures);
+	if (m_options.save_depth) m_recorder.writeDepths(*logged, m_vehicle.depths(pair));
 	m_recorder.writeTruth(stampOf(*logged), pair.truth.T_map_body);
 	logged->imageLeft = mrpt::img::CImage(pictures.left, mrpt::img::DEEP_COPY);
 	logged->imageRight = mrpt::img::CImage(pictures.right, mrpt::img::DEEP_COPY);
@@ -92,6 +93,7 @@ void CClosedLoop::describe(TControlStep& step)
 	for (; m_edges_counted < edges.size(); m_edges_counted++)
 		m_loops += edges[m_edges_counted].kind == EEdgeKind::ROI;
 	step.loops = m_loops;
+	step.faults = m_vehicle.faults().active(step.t);
 }
 
 /** pose_source = truth puts the true pose in the place of the estimated one; velocities stay measured. */

@@ -9,7 +9,7 @@
 #include <posidonia/eval/trajectory_io.h>
 #include <posidonia/geometry/mrpt_pose.h>
 #include <posidonia/obs/register_observations.h>
-#include <posidonia/sim/png_file.h>
+#include <posidonia/sim/pair_files.h>
 
 #include <filesystem>
 
@@ -48,11 +48,12 @@ void CMissionRecorder::write(const CObservationStereoImages& pair, const TGreyPa
 {
 	if (m_compressing.valid()) m_compressing.get();
 	m_compressing = std::async(
-		std::launch::async, [pictures, left = pair.imageLeft.getExternalStorageFile(),
-							 right = pair.imageRight.getExternalStorageFile(), folder = m_images] {
-			writePng(folder + "/" + left, pictures.left);
-			writePng(folder + "/" + right, pictures.right);
-		});
+		std::launch::async, [pictures, pair, folder = m_images] { writePictures(pictures, pair, folder); });
+}
+
+void CMissionRecorder::writeDepths(const CObservationStereoImages& pair, const cv::Mat1f& depths) const
+{
+	posidonia::writeDepths(depths, pair, m_images);
 }
 
 namespace

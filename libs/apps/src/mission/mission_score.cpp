@@ -165,14 +165,36 @@ std::string controlCsv(const std::vector<TControlStep>& steps)
 	return csv;
 }
 
+namespace
+{
+/** Those of `names` that are not among `others` (null: none). */
+std::vector<std::string> without(
+	const std::vector<std::string>& names, const std::vector<std::string>* others)
+{
+	std::vector<std::string> left;
+	for (const std::string& name : names)
+		if (!others || std::find(others->begin(), others->end(), name) == others->end()) left.push_back(name);
+	return left;
+}
+}  // namespace
+
 std::string eventsCsv(const std::vector<TControlStep>& steps, double start_time)
 {
 	std::string csv = "t,kind,text\n";
-	for (const TControlStep& step : steps)
+	const auto add = [&](double t, const std::string& kind, const std::string& text) {
+		csv += mrpt::format("%.2f,%s,\"%s\"\n", t, kind.c_str(), text.c_str());
+	};
+	const std::vector<std::string>* before = nullptr;
+	for (const TControlStep& step : steps) {
+		for (const std::string& name : without(step.faults, before))
+			add(step.t, "fault begins", name);
+		if (before)
+			for (const std::string& name : without(*before, &step.faults))
+				add(step.t, "fault ends", name);
+		before = &step.faults;
 		for (const TMissionEvent& event : step.output.events)
-			csv += mrpt::format(
-				"%.2f,%s,\"%s\"\n", event.stamp - start_time, toString(event.kind).c_str(),
-				event.text.c_str());
+			add(event.stamp - start_time, toString(event.kind), event.text);
+	}
 	return csv;
 }
 

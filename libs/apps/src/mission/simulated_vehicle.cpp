@@ -46,15 +46,21 @@ CSimulatedVehicle::TMeasurement CSimulatedVehicle::measure()
 	return m;
 }
 
-TGreyPair CSimulatedVehicle::photograph(const TMeasurement& pair) const
+/** The state goes on for as long as the camera's clock is off: hundredths of a second. */
+Isometry3d CSimulatedVehicle::poseOfExposure(const TMeasurement& pair) const
 {
-	// The state goes on for as long as the camera's clock is off: hundredths of a second.
 	const double late = m_scene.cameraClock();
 	Isometry3d T_map_body = pair.truth.T_map_body;
 	T_map_body.translation() += late * pair.truth.v_map;
 	T_map_body.linear() *= expSO3(late * pair.truth.omega_body);
+	return T_map_body;
+}
+
+TGreyPair CSimulatedVehicle::photograph(const TMeasurement& pair) const
+{
 	TGreyPair pictures = m_scene.photograph(
-		TExposure{T_map_body, pair.truth.v_body, pair.truth.omega_body, m_faults.turbidity(pair.truth.t)},
+		TExposure{
+			poseOfExposure(pair), pair.truth.v_body, pair.truth.omega_body, m_faults.turbidity(pair.truth.t)},
 		pair.frame.value());
 	if (m_faults.blackout(pair.truth.t)) {
 		pictures.left.setTo(0);

@@ -60,16 +60,12 @@ std::optional<double> CVehicleComputer::altitudeOfBody(const CObservationDVL& dv
 	return dvl.altitude + (m_slam.odometry().now().T.linear() * lever).z();
 }
 
-/** As CDistanceNRD decides: the pair nearest to each node_distance of displacement. */
+/** As CDistanceNRD decides. */
 bool CVehicleComputer::wantsPair()
 {
 	if (!m_slam.odometry().ready()) return false;
 	if (m_slam.map().nodeCount() == 0) return true;
-	const double displacement = m_slam.odometry().sinceClone().T.translation().norm();
-	const double step = std::abs(displacement - m_last_displacement);
-	const bool wanted = displacement >= m_node_distance - step / 2;
-	m_last_displacement = wanted ? 0 : displacement;
-	return wanted;
+	return m_distance.reached(m_slam.odometry().sinceClone().T.translation().norm(), m_node_distance);
 }
 
 TPoseFeedback CVehicleComputer::feedback(double stamp)

@@ -132,11 +132,12 @@ void CScene::requireFloorUnder(const std::vector<Vector3d>& positions) const
 		const double height = m_floor->depthAt(p.head<2>()) - p.z();
 		const double reach = height * view + arm + m_floor_options.margin;
 		if (height <= 0)
-			throw CError("[Route]", "a set point lies under the sea floor", "make [Floor] depth larger");
+			throw CError(
+				"[Floor] depth", "a point of the way lies under the sea floor", "make [Floor] depth larger");
 		if (std::abs(p.x()) + reach > m_floor_options.extent_north / 2 ||
 			std::abs(p.y()) + reach > m_floor_options.extent_east / 2)
 			throw CError(
-				"[Route]",
+				"[Floor]",
 				"the camera sees over the end of the floor's texture at north " + std::to_string(p.x()) +
 					" east " + std::to_string(p.y()),
 				"make [Floor] extent_north or extent_east larger");

@@ -29,8 +29,11 @@ class CMissionApp
 		std::string folder, rawlog;
 		double seconds{0};		  ///< Of the clock
 		int missed_deadlines{0};  ///< With --realtime
+		std::string aborted;	  ///< Why the mission was not done; empty when it was
 	};
 	const TResults& results() const { return m_results; }
+	/** A mission that was aborted is not done: 1. */
+	int exitStatus() const { return m_results.aborted.empty() ? 0 : 1; }
 	TExperiment params;
 
    private:
@@ -38,6 +41,7 @@ class CMissionApp
 	void loadMissionFile(const std::string& path);
 	void fly(TLoop& loop);
 	void writeResults(TLoop& loop);
+	void writeWorldFiles(const TLoop& loop) const;
 	void score();
 	void logSummary(TLoop& loop);
 

@@ -56,7 +56,8 @@ TRunScores evaluateTrajectories(
 
 /** Scores a run against the truth file: metric rows of every trajectory and of the loops of `loops_csv`, and
  * writes the pictures of the paper's figure 5 (trajectories.svg, error.svg) into `folder`. Returns the rows
- * and, for the paper's experiments, its table with ours. */
+ * and, for the paper's experiments, its table with ours. @param mission rows "mission.*" of a vehicle that
+ * steered by its pose, for the table */
 struct TScore
 {
 	TMetrics metrics;
@@ -64,5 +65,5 @@ struct TScore
 };
 TScore scoreRun(
 	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv,
-	const std::string& truth_file, const CRunFolder& folder);
+	const std::string& truth_file, const CRunFolder& folder, const TMetrics& mission = {});
 }  // namespace posidonia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/graphslam/interfaces/CNodeRegistrationDecider.h>
+#include <posidonia/graphslam/node_distance.h>
 #include <posidonia/graphslam/slam_parts.h>
 
 namespace posidonia
@@ -22,10 +23,9 @@ class CDistanceNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecider<
 	TSlamGraph::global_pose_t getCurrentRobotPosEstimation() const override;
 
    private:
-	bool farEnough(double displacement);
 	void registerRoot(double stamp);
 	void registerNode(double stamp, const TPoseEstimate& since_node);
 
-	double m_last_displacement{0};	// at the previous pair, from the last node [m]
+	CNodeDistance m_distance;
 };
 }  // namespace posidonia

@@ -17,7 +17,8 @@ struct TControlStep
 	TPoseFeedback feedback;	  ///< What the controllers were given
 	Eigen::Isometry3d T_odom_body{Eigen::Isometry3d::Identity()};
 	TAutopilotOutput output;
-	int loops{0};  ///< ROI edges of the graph so far
+	int loops{0};					  ///< ROI edges of the graph so far
+	std::vector<std::string> faults;  ///< Names of those that are on
 };
 
 /** Simulator -> odometry and SLAM -> guidance and control -> thrusters -> simulator. */
@@ -30,6 +31,7 @@ class CClosedLoop
 		TForcedCorrectionOptions forced;
 		double start_time{0};	   ///< Stamp of the beginning [s]
 		bool all_pictures{false};  ///< Take every stereo pair, not only those that make nodes
+		bool save_depth{false};	   ///< Write the true depths of each pair, too
 	};
 	CClosedLoop(
 		const TOptions& options, CSimulatedVehicle& vehicle, CVehicleComputer& computer,

@@ -23,6 +23,8 @@ class CMissionRecorder
 	mrpt::obs::CObservation::Ptr write(const mrpt::obs::CObservation& observation);
 	/** The pictures of a stereo pair that was written. */
 	void write(const mrpt::obs::CObservationStereoImages& pair, const TGreyPair& pictures);
+	/** True depths of its left picture [m], as a picture beside it. */
+	void writeDepths(const mrpt::obs::CObservationStereoImages& pair, const cv::Mat1f& depths) const;
 	/** Set-points as CObservationRawDAQ, the controllers' pose as CObservationRobotPose, events as
 	 * CObservationComment. */
 	void write(const TAutopilotOutput& output, const TControlState& navigation);
@@ -31,6 +33,7 @@ class CMissionRecorder
 	void finish();
 
 	const std::string& rawlog() const { return m_rawlog; }
+	const TTrajectory& truth() const { return m_truth; }
 
    private:
 	std::string m_prefix, m_rawlog, m_images;

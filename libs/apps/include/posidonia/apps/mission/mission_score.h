@@ -25,7 +25,7 @@ TMetrics jumpMetrics(const std::vector<TControlStep>& steps, double time);
 
 /** control.csv: a row each step. */
 std::string controlCsv(const std::vector<TControlStep>& steps);
-/** events.csv: t,kind,text. */
+/** events.csv: t,kind,text; when faults begin and end stands there, too. */
 std::string eventsCsv(const std::vector<TControlStep>& steps, double start_time);
 /** A few lines for the terminal. */
 std::string missionSummary(const TMetrics& rows);

@@ -31,6 +31,8 @@ class CSimulatedVehicle
 	TMeasurement measure();
 	/** The pictures of a stereo pair, of the last measurement. */
 	TGreyPair photograph(const TMeasurement& pair) const;
+	/** Depth of what the left picture shows (CScene::depths). */
+	cv::Mat1f depths(const TMeasurement& pair) const { return m_scene.depths(poseOfExposure(pair)); }
 
 	/** Of the thrusters starboard, port, heave, -1 .. 1, from now on. */
 	void setSetPoints(const Eigen::Vector3d& set_points) { m_dynamics.setSetPoints(set_points); }
@@ -38,8 +40,11 @@ class CSimulatedVehicle
 	TVehicleState moveTo(double t);
 
 	const CScene& scene() const { return m_scene; }
+	const CFaults& faults() const { return m_faults; }
 
    private:
+	Eigen::Isometry3d poseOfExposure(const TMeasurement& pair) const;
+
 	CScene m_scene;
 	CSensorBank m_bank;
 	CFaults m_faults;

@@ -4,6 +4,7 @@
 #include <posidonia/control/autopilot.h>
 #include <posidonia/control/delayed_corrections.h>
 #include <posidonia/control/safe_correction.h>
+#include <posidonia/graphslam/node_distance.h>
 #include <posidonia/graphslam/stereo_slam.h>
 
 namespace posidonia
@@ -73,6 +74,6 @@ class CVehicleComputer
 	double m_ready_since{-1};
 	bool m_has_position{false};	 ///< A vehicle that never got a fix has no GPS
 	std::optional<double> m_altitude;
-	double m_last_displacement{0};	///< From the last node, when a pair was last asked about [m]
+	CNodeDistance m_distance;
 };
 }  // namespace posidonia
