@@ -2,7 +2,7 @@
 # MRPT's exported targets ask for optional packages (ZeroMQ, OpenNI ...) with REQUIRED OFF: harmless.
 find_package(Eigen3 3.4 REQUIRED)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d)
-foreach(component poses obs config math img io graphs graphslam bayes topography opengl system)
+foreach(component poses obs config math img io graphs graphslam bayes topography opengl maps system)
 	find_package(mrpt-${component} 2.5 REQUIRED)
 endforeach()
 find_package(Threads REQUIRED)

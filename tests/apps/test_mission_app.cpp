@@ -177,7 +177,7 @@ TEST(MissionApp, WrongInputNamesWhatIsWrong)
 
 TEST(MissionApp, OverviewAndDepthsOnRequest)
 {
-	const CTinyMission mission("", "[Mission]\n[Step.1]\nkind = goto\nnorth = 0\neast = 1\ndepth = 3.5\n");
+	const CTinyMission mission("", "[Mission]\n[Step.1]\nkind = goto\npoints = 0 1\ndepth = 3.5\n");
 	CMissionApp app;
 	mission.fly(app, "run", {"--set", "Simulation.overview=true", "--set", "Simulation.save_depth=true"});
 	const std::string& folder = app.results().folder;
@@ -203,7 +203,7 @@ TEST(MissionApp, ThePapersTableSaysWhereTheVehicleTrulyEnded)
 
 TEST(MissionApp, AMissionOverTheEndOfTheFloorIsRefused)
 {
-	const CTinyMission mission("", "[Mission]\n[Step.1]\nkind = goto\nnorth = 0\neast = 30\ndepth = 3.5\n");
+	const CTinyMission mission("", "[Mission]\n[Step.1]\nkind = goto\npoints = 0 30\ndepth = 3.5\n");
 	CMissionApp app;
 	try {
 		mission.fly(app, "run");

@@ -17,6 +17,11 @@ struct TCase
 	bool afloat;  ///< The vehicle ends at the surface
 };
 
+std::ostream& operator<<(std::ostream& out, const TCase& c)
+{
+	return out << c.rule;
+}
+
 const char* const kSurface = "[Mission]\n[Step.1]\nkind = hold\nduration = 45\ndepth = 0\n";
 const char* const kLow = "[Mission]\n[Step.1]\nkind = dive\ndepth = 5.3\ntimeout = 25\n";
 const char* const kHurried =
@@ -113,7 +118,9 @@ TEST_P(MissionSafety, ARuleFiresInTheWholeLoopAndEndsIt)
 	for (const auto& step : app.results().steps)
 		worst = std::max(worst, step.output.level);
 	EXPECT_EQ(toString(worst), toString(c.level));
-	if (c.afloat) EXPECT_LT(last.truth.T_map_body.translation().z(), 0.5) << "it is at the surface";
+	if (c.afloat) {
+		EXPECT_LT(last.truth.T_map_body.translation().z(), 0.5) << "it is at the surface";
+	}
 	EXPECT_TRUE(fs::exists(app.results().folder + "/metrics.json")) << "the run folder is whole";
 }
 INSTANTIATE_TEST_SUITE_P(Faults, MissionSafety, ::testing::ValuesIn(cases()), nameOf);

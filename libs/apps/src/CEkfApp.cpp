@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 
 namespace fs = std::filesystem;
 
@@ -35,6 +36,7 @@ bool CEkfApp::initialize(int argc, const char* const* argv)
 		"Also write smoothed.tum: poses that know what came after them (Rauch-Tung-Striebel), for use "
 		"after the mission",
 		line.cmd());
+	TCLAP::SwitchArg json("", "json", "Print the metrics as JSON instead of the summary", line.cmd());
 	if (!line.parse(argc, argv)) return false;
 
 	if (!(rate.getValue() > 0)) throw CUsageError("--rate", "must be > 0", "give poses a second");
@@ -45,6 +47,8 @@ bool CEkfApp::initialize(int argc, const char* const* argv)
 		throw CUsageError(
 			"--smooth", "needs our own navigation filter",
 			"set [Odometry] source = ekf and [Ekf] mode = ins, gyro or kinematic");
+	m_json = json.getValue();
+	if (m_json) m_input.verbosity = 0;
 	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_input.name() + "-ekf");
 	return true;
 }
@@ -81,15 +85,29 @@ void CEkfApp::run()
 	if (m_has_pictures) linkImages();
 	if (!m_input.truth.empty()) score();
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
+	if (m_json) std::cout << metricsJson(m_results.metrics);
 	m_folder->log("rawlog with poses: " + m_results.rawlog, m_input.verbosity);
 	m_folder->log("run folder: " + m_folder->path(), m_input.verbosity);
-	m_folder->finish();
+	writeReportFiles(*odometry);
+	finishReport(*m_folder, params.report, m_input.verbosity);
+}
+
+void CEkfApp::writeReportFiles(const COdometrySource& odometry)
+{
+	const double start = m_results.ekf.front().stamp, end = m_results.ekf.back().stamp;
+	writeSensorCounts(*m_folder, odometry, end - start);
+	writeRunInfo(
+		*m_folder, {name, m_input.name(), versionText(), copyTruth(*m_folder, m_input.truth, start, end),
+					m_results.interrupted, start, end - start, params.simulation.world});
 }
 
 void CEkfApp::replay(COdometrySource& odometry, CRawlogReader& reader, CRawlogWriter& writer)
 {
+	const CInterrupt interrupt;
 	CProgress progress("navigation filter", m_input.verbosity == 0);
 	while (const auto observation = reader.next()) {
+		m_results.interrupted = interrupt.requested();
+		if (m_results.interrupted) return;
 		if (IS_CLASS(*observation, CObservationRobotPose) && observation->sensorLabel == pose_label)
 			throw CError(
 				m_input.rawlog, std::string("holds poses labelled ") + pose_label + " already",
@@ -192,6 +210,7 @@ void CEkfApp::score()
 void CEkfApp::logSummary(const COdometrySource& odometry, const CRawlogReader& reader, double seconds)
 {
 	m_folder->log(versionText(), m_input.verbosity - 1);
+	if (m_results.interrupted) m_folder->log(interruptedText(), m_input.verbosity + 1);
 	const std::string losses = replayLosses(reader);
 	if (!losses.empty()) m_folder->log(losses, m_input.verbosity + 1);	// even when quiet
 	const auto value = [&](const char* what) { return metric(m_results.metrics, what); };

@@ -26,6 +26,7 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 		"e", "edge-deciders", "Overrides [Slam] edge_deciders", false, "", "NAMES", cmd);
 	TCLAP::ValueArg<std::string> optimizer(
 		"", "optimizer", "Overrides [Slam] optimizer", false, "", "NAME", cmd);
+	TCLAP::SwitchArg json("", "json", "Print the metrics as JSON instead of the summary", cmd);
 	TCLAP::SwitchArg list("", "list-deciders", "Print deciders and optimisers, and stop", cmd);
 	if (!line.parse(argc, argv)) return false;
 	if (list.getValue()) {
@@ -38,6 +39,8 @@ bool CGraphSlamApp::initialize(int argc, const char* const* argv)
 	if (edges.isSet()) ini.set("Slam.edge_deciders=" + edges.getValue());
 	if (optimizer.isSet()) ini.set("Slam.optimizer=" + optimizer.getValue());
 	if (!replay.load(ini, m_input, params)) return false;
+	m_json = json.getValue();
+	if (m_json) m_input.verbosity = 0;
 	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_input.name());
 	return true;
 }
@@ -54,23 +57,41 @@ void CGraphSlamApp::run()
 		params.slam, m_input.sensors, params.makeOdometry(m_input.sensors),
 		std::make_unique<CStereoImageLoader>(m_input.rawlog), m_folder->file("config.ini"));
 	const TSilencedAtEnd silenced{slam.timer()};
-	replay(slam, reader);
+	CNodePictures pictures(*m_folder, params.report.pictures);
+	replay(slam, reader, pictures);
 	slam.makeExact();
 	collect(slam, reader);
 	writeSlamFiles(*m_folder, slam, m_results.trajectories);
 	logSummary(slam, reader, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 	if (!m_input.truth.empty()) score(slam);
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
+	if (m_json) std::cout << metricsJson(m_results.metrics);
 	m_folder->log("run folder: " + m_folder->path(), m_input.verbosity);
-	m_folder->finish();
+	writeReportFiles(slam, pictures);
+	finishReport(*m_folder, params.report, m_input.verbosity);
 }
 
-void CGraphSlamApp::replay(CStereoSlam& slam, CRawlogReader& reader)
+void CGraphSlamApp::writeReportFiles(const CStereoSlam& slam, CNodePictures& pictures)
 {
+	const auto& poses = m_results.trajectories.slam;
+	const double start = poses.front().stamp, end = poses.back().stamp;
+	writeMapFiles(*m_folder, slam, pictures.files());
+	writeSensorCounts(*m_folder, slam.odometry(), end - start);
+	writeRunInfo(
+		*m_folder, {name, m_input.name(), versionText(), copyTruth(*m_folder, m_input.truth, start, end),
+					m_results.interrupted, start, end - start, params.simulation.world});
+}
+
+void CGraphSlamApp::replay(CStereoSlam& slam, CRawlogReader& reader, CNodePictures& pictures)
+{
+	const CInterrupt interrupt;
 	CProgress progress("graph-SLAM", m_input.verbosity == 0);
 	while (const auto observation = reader.next()) {
+		m_results.interrupted = interrupt.requested();
+		if (m_results.interrupted) return;
 		slam.add(observation);
 		rememberCausal(slam, m_results.trajectories);
+		pictures.add(slam);
 		if (!IS_CLASS(*observation, CObservationStereoImages) || slam.map().nodeCount() == 0) continue;
 		progress.update(
 			reader.progress(),
@@ -97,7 +118,7 @@ void CGraphSlamApp::score(const CStereoSlam&)
 {
 	const TScore score = scoreRun(
 		scoringOf(params, m_input.sensors), m_results.trajectories, m_folder->file("loops.csv"),
-		m_input.truth, *m_folder);
+		m_input.truth);
 	m_results.metrics.insert(m_results.metrics.end(), score.metrics.begin(), score.metrics.end());
 	if (!score.text.empty()) m_folder->log(score.text, m_input.verbosity);
 	m_folder->log(scoreSummary(score.metrics), m_input.verbosity);
@@ -107,6 +128,7 @@ void CGraphSlamApp::score(const CStereoSlam&)
 void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& reader, double seconds)
 {
 	m_folder->log(versionText(), m_input.verbosity - 1);
+	if (m_results.interrupted) m_folder->log(interruptedText(), m_input.verbosity + 1);
 	const std::string losses = replayLosses(reader);
 	if (!losses.empty()) m_folder->log(losses, m_input.verbosity + 1);	// even when quiet
 	m_folder->log(m_results.counts.text(), m_input.verbosity);

@@ -23,6 +23,7 @@ bool CMissionApp::initialize(int argc, const char* const* argv)
 		"Example: auv-mission -c ini/paper-exp2-closed.ini");
 	TCLAP::SwitchArg realtime(
 		"", "realtime", "Keep to the clock, and count the missed deadlines", line.cmd());
+	TCLAP::SwitchArg json("", "json", "Print the metrics as JSON instead of the summary", line.cmd());
 	if (!line.parse(argc, argv)) return false;
 
 	CIniFile ini = line.ini();
@@ -37,9 +38,11 @@ bool CMissionApp::initialize(int argc, const char* const* argv)
 	if (params.closed_loop.mission.empty())
 		throw CError("[ClosedLoop] mission", "is missing", "name a mission file");
 	loadMissionFile(line.besideConfig(params.closed_loop.mission));
-	m_verbosity = line.verbosity();
+	m_json = json.getValue();
+	m_verbosity = m_json ? 0 : line.verbosity();
 	m_realtime = realtime.getValue();
-	m_folder = std::make_unique<CRunFolder>(line.outputDir(), line.configName());
+	m_title = line.configName();
+	m_folder = std::make_unique<CRunFolder>(line.outputDir(), m_title);
 	return true;
 }
 
@@ -69,6 +72,7 @@ struct CMissionApp::TLoop
 			  app.m_mission, slam, e.slam.node.distance, e.simulation.run.start_time),
 		  vehicle(e.simulation, app.m_sensors, e.faults),
 		  recorder(folder.file("mission"), app.m_sensors),
+		  pictures(folder, e.report.pictures),
 		  loop(
 			  {e.closed_loop, e.forced_correction, e.simulation.run.start_time,
 			   e.simulation.run.save_images == "all", e.simulation.run.save_depth},
@@ -79,6 +83,7 @@ struct CMissionApp::TLoop
 	CVehicleComputer computer;
 	CSimulatedVehicle vehicle;
 	CMissionRecorder recorder;
+	CNodePictures pictures;
 	CClosedLoop loop;
 	TSilencedAtEnd slam_silenced{slam.timer()}, loop_silenced{loop.timer()};
 };
@@ -139,7 +144,8 @@ void CMissionApp::run()
 	writeWorldFiles(loop);
 	score();
 	logSummary(loop);
-	m_folder->finish();
+	writeReportFiles(loop);
+	finishReport(*m_folder, params.report, m_verbosity);
 }
 
 namespace
@@ -159,7 +165,12 @@ void CMissionApp::fly(TLoop& loop)
 	CProgress progress("mission", m_verbosity == 0);
 	CRealtimePacer pacer(m_realtime, 1 / params.closed_loop.control_rate);
 	const double steps = static_cast<double>(m_mission.steps.size());
-	const auto remember = [&] { rememberCausal(loop.slam, m_results.trajectories); };
+	const auto remember = [&] {
+		rememberCausal(loop.slam, m_results.trajectories);
+		loop.pictures.add(loop.slam);
+	};
+	const CInterrupt interrupt;
+	const auto stops = [&] { return m_results.interrupted = interrupt.requested(); };
 	const auto record = [&](const TControlStep& step) {
 		m_results.steps.push_back(step);
 		progress.update(
@@ -167,7 +178,7 @@ void CMissionApp::fly(TLoop& loop)
 			progressText(step, m_mission.steps.size()));
 		pacer.waitFor(step.t);
 	};
-	loop.loop.run({record, remember});
+	loop.loop.run({record, remember, stops});
 	m_results.missed_deadlines = pacer.missed();
 	m_results.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 	if (m_realtime)
@@ -211,13 +222,24 @@ void CMissionApp::score()
 	if (m_results.counts.nodes > 0) {
 		const TScore score = scoreRun(
 			scoringOf(params, m_sensors), m_results.trajectories, m_folder->file("loops.csv"),
-			m_folder->file("mission.gt.tum"), *m_folder, mission);
+			m_folder->file("mission.gt.tum"), mission);
 		append(score.metrics);
 		if (!score.text.empty()) m_folder->log(score.text, m_verbosity);
 		m_folder->log(scoreSummary(score.metrics), m_verbosity);
 	}
 	m_folder->log(missionSummary(m_results.metrics), m_verbosity);
 	writeMetricsJson(m_folder->file("metrics.json"), m_results.metrics);
+	if (m_json) std::cout << metricsJson(m_results.metrics);
+}
+
+void CMissionApp::writeReportFiles(TLoop& loop)
+{
+	const double duration = m_results.steps.back().t;
+	writeMapFiles(*m_folder, loop.slam, loop.pictures.files());
+	writeSensorCounts(*m_folder, loop.slam.odometry(), duration);
+	writeRunInfo(
+		*m_folder, {name, m_title, versionText(), "mission.gt.tum", m_results.interrupted,
+					params.simulation.run.start_time, duration, params.simulation.world});
 }
 
 void CMissionApp::logSummary(TLoop& loop)
@@ -226,6 +248,7 @@ void CMissionApp::logSummary(TLoop& loop)
 	m_folder->log(m_results.counts.text(), m_verbosity);
 	m_folder->log(candidateCounts(loop.slam.map().candidates), m_verbosity);
 	m_folder->log(speedText(m_results.steps.back().t, m_results.seconds), m_verbosity);
+	if (m_results.interrupted) m_folder->log(interruptedText(), m_verbosity + 1);
 	if (!m_results.aborted.empty())
 		m_folder->log("mission ABORTED: " + m_results.aborted + " (events.csv says when)", m_verbosity + 1);
 	m_folder->log(navigationText(loop.slam.odometry()), m_verbosity - 1);

@@ -34,15 +34,16 @@ class CVersionOutput : public TCLAP::StdOutput
 
 CCommandLine::CCommandLine(
 	const std::string& app, const std::string& description, const std::string& output_text,
-	const std::string& output_type)
+	const std::string& output_type, bool takes_config)
 	: m_app(app),
 	  m_cmd(description + "\nExit status: 0 done, 1 failed, 2 wrong command line.", ' ', kVersion),
-	  m_config("c", "config", "Ini file; without it every key has its default", false, "", "FILE.ini", m_cmd),
+	  m_config("c", "config", "Ini file; without it every key has its default", false, "", "FILE.ini"),
 	  m_output("o", "output-dir", output_text, false, "", output_type, m_cmd),
-	  m_set("", "set", "Override one key; may be repeated", false, "Section.key=value", m_cmd),
+	  m_set("", "set", "Override one key; may be repeated", false, "Section.key=value"),
 	  m_verbosity("v", "verbosity", "0 quiet, 1 summary (default), 2 details", false, 1, "0|1|2", m_cmd),
-	  m_dump("", "dump-config", "Print the configuration as used, with every key's meaning, and stop", m_cmd)
+	  m_dump("", "dump-config", "Print the configuration as used, with every key's meaning, and stop")
 {
+	if (takes_config) m_cmd.add(m_config).add(m_set).add(m_dump);
 	m_cmd.setExceptionHandling(false);
 }
 

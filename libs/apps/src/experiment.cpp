@@ -59,12 +59,25 @@ Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry)
 	return behindCorruptor(odometry).now().T;
 }
 
-std::string navigationText(const COdometrySource& odometry)
+namespace
+{
+TNavStatistics statisticsOf(const COdometrySource& odometry)
 {
 	const COdometrySource& source = behindCorruptor(odometry);
-	if (const auto* ekf = dynamic_cast<const CEkfOdometry*>(&source)) return ekf->statistics().text();
-	if (const auto* cola2 = dynamic_cast<const CCola2Odometry*>(&source)) return cola2->statistics().text();
+	if (const auto* ekf = dynamic_cast<const CEkfOdometry*>(&source)) return ekf->statistics();
+	if (const auto* cola2 = dynamic_cast<const CCola2Odometry*>(&source)) return cola2->statistics();
 	return {};
+}
+}  // namespace
+
+std::map<std::string, TSensorCount> navigationCounts(const COdometrySource& odometry)
+{
+	return statisticsOf(odometry).sensors;
+}
+
+std::string navigationText(const COdometrySource& odometry)
+{
+	return statisticsOf(odometry).text();
 }
 
 TSensorSuite sensorsOfRawlog(const std::string& rawlog, bool assume_defaults)

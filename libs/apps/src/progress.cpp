@@ -35,8 +35,18 @@ void CProgress::drawBar(double fraction, const std::string& detail)
 	const std::string bar =
 		std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(kWidth - full), '.');
 	std::fprintf(
-		stderr, "\r%s [%s] %3d %% %s\033[K", m_what.c_str(), bar.c_str(), static_cast<int>(fraction * 100),
-		detail.c_str());
+		stderr, "\r%s [%s] %3d %% %s%s\033[K", m_what.c_str(), bar.c_str(),
+		static_cast<int>(std::clamp(fraction, 0.0, 1.0) * 100), detail.c_str(), timeLeft(fraction).c_str());
 	std::fflush(stderr);
+}
+
+std::string CProgress::timeLeft(double fraction) const
+{
+	if (fraction < 0.02 || fraction >= 1) return {};
+	const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - m_begun).count();
+	const int left = static_cast<int>(spent * (1 - fraction) / fraction + 0.5);
+	char text[40];
+	std::snprintf(text, sizeof text, ", %d:%02d left", left / 60, left % 60);
+	return text;
 }
 }  // namespace posidonia

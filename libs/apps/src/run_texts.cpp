@@ -76,6 +76,11 @@ std::string speedText(double log_seconds, double seconds)
 		log_seconds / seconds, static_cast<double>(usage.ru_maxrss) / 1024);
 }
 
+std::string interruptedText()
+{
+	return "INTERRUPTED: what follows is of the part that was run; the run folder is whole";
+}
+
 std::string truthFor(const std::string& rawlog, const std::string& given)
 {
 	if (!given.empty()) {

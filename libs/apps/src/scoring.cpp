@@ -1,11 +1,7 @@
 #include <posidonia/apps/scoring.h>
 #include <posidonia/eval/loop_evaluation.h>
 #include <posidonia/eval/trajectory_io.h>
-#include <posidonia/report/error_plot.h>
 #include <posidonia/report/paper_table.h>
-#include <posidonia/report/trajectory_plot.h>
-
-#include <limits>
 
 namespace posidonia
 {
@@ -43,31 +39,6 @@ std::map<std::uint64_t, Eigen::Isometry3d> trueNodePoses(const TAssociation& nod
 	return poses;
 }
 
-/** Where the vehicle truly ended and went, when it kept station at the end. */
-void addSteering(TPaperRow& row, const TMetrics& mission)
-{
-	if (mission.empty()) return;
-	row.end_error = metric(mission, "mission.end_error.mean");
-	row.cross_track = metric(mission, "mission.cross_track.mean");
-}
-
-std::string tableText(int experiment, const TRunScores& scores, const TMetrics& mission)
-{
-	if (experiment == 0) return {};
-	const auto mean = [](const TRunEvaluation& e) { return e.absolute[0].translation.mean; };
-	const TRunEvaluation &nodes = *scores.find("nodes"), &odom = *scores.find("odom"),
-						 &slam = *scores.find("slam");
-	std::vector<TPaperRow> rows{
-		{"Ground truth", nodes.truth_length, std::numeric_limits<double>::quiet_NaN()},
-		{"Odometry", odom.length, mean(odom)},
-		{"Posidonia (nodes)", nodes.length, mean(nodes)},
-		{"Posidonia (causal)", slam.length, mean(slam)}};
-	if (const auto* control = scores.find("control")) {
-		rows.push_back({"Posidonia (in control)", control->length, mean(*control)});
-		addSteering(rows.back(), mission);
-	}
-	return paperTable(experiment, rows);
-}
 }  // namespace
 
 const TRunEvaluation* TRunScores::find(const std::string& name) const
@@ -108,19 +79,16 @@ TRunScores evaluateTrajectories(
 
 TScore scoreRun(
 	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv,
-	const std::string& truth_file, const CRunFolder& folder, const TMetrics& mission)
+	const std::string& truth_file, const TMetrics& mission)
 {
 	const TTrajectory truth = readTum(truth_file);
 	const auto loops = readLoops(loops_csv);
 	const TRunScores scores = evaluateTrajectories(scoring, run, &loops, truth);
-	const auto errors = [&](const char* name) { return scores.find(name)->absolute[0].poses; };
-	const std::string title =
-		scoring.paper_experiment ? "Experiment " + std::to_string(scoring.paper_experiment) : "Survey";
-	folder.write(
-		"trajectories.svg", plotTrajectories(
-								{title, run.odom, truth, run.nodes, loopSegments(loops, run.nodes),
-								 rejectedLoopSegments(loops, run.nodes)}));
-	folder.write("error.svg", plotErrors({title, errors("odom"), errors("nodes")}));
-	return {scores.metrics(), tableText(scoring.paper_experiment, scores, mission)};
+	TScore score{scores.metrics(), {}};
+	if (scoring.paper_experiment == 0) return score;
+	TMetrics rows = score.metrics;
+	rows.insert(rows.end(), mission.begin(), mission.end());
+	score.text = paperTable(scoring.paper_experiment, paperRows(rows));
+	return score;
 }
 }  // namespace posidonia

@@ -25,6 +25,7 @@ TSlamCounts countsOf(const CStereoSlam& slam)
 {
 	TSlamCounts counts;
 	counts.nodes = slam.map().nodeCount();
+	if (counts.nodes == 0) return counts;  // no picture, or never a pose
 	for (const auto& edge : slam.map().edges()) {
 		counts.sequential_edges += edge.kind == EEdgeKind::SEQUENTIAL;
 		counts.roi_edges += edge.kind == EEdgeKind::ROI;

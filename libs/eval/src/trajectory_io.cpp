@@ -1,4 +1,4 @@
-#include "data_lines.h"
+#include <posidonia/eval/data_lines.h>
 
 #include <posidonia/base/error.h>
 #include <posidonia/base/files.h>

@@ -7,6 +7,7 @@
 #include <posidonia/posegraph/chi2.h>
 #include <posidonia/posegraph/g2o_file.h>
 #include <posidonia/posegraph/spanning_tree.h>
+#include <posidonia/posegraph/sparse_optimizer.h>
 
 namespace posidonia
 {
@@ -164,6 +165,19 @@ bool CStereoSlam::addedNode() const
 const std::vector<TCausalPose>& CStereoSlam::causal() const
 {
 	return m_impl->causal;
+}
+std::vector<Matrix6d> CStereoSlam::nodeCovariances() const
+{
+	if (map().nodeCount() == 0) return {};
+	const TStereoSlamOptions& options = m_impl->parts.options;
+	CPoseGraph graph = toPoseGraph(map(), options.loss, options.priors);
+	CSparseOptimizer optimizer(options.optimizer);
+	optimizer.optimize(graph);
+	return optimizer.marginals(graph).allCovariances();
+}
+const TGreyPair& CStereoSlam::lastPictures() const
+{
+	return m_impl->parts.last_pictures;
 }
 const CSlamMap& CStereoSlam::map() const
 {

@@ -66,13 +66,13 @@ const TKeyFrame& TSlamParts::keyFrameOf(int i, const CObservationStereoImages& p
 {
 	if (!map.node(i).key_frame) {
 		const TRig& rig = rigOf(pair);
-		TGreyPair grey;
 		{
 			const mrpt::system::CTimeLoggerEntry timing(timer, "read_images");
-			grey = images.load(pair);
+			last_pictures = images.load(pair);
 		}
 		const mrpt::system::CTimeLoggerEntry timing(timer, "key_frame");
-		map.setKeyFrame(i, std::make_shared<TKeyFrame>(rig.extractor.extract(grey.left, grey.right)));
+		map.setKeyFrame(
+			i, std::make_shared<TKeyFrame>(rig.extractor.extract(last_pictures.left, last_pictures.right)));
 	}
 	return *map.node(i).key_frame;
 }

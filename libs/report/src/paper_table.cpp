@@ -34,8 +34,7 @@ TPaperTable published(int experiment)
 
 /** Ours with a digit more: centimetres would hide it. */
 void addRows(
-	CTextTable& table, const std::string& whose, const std::vector<TPaperRow>& rows, int decimals,
-	bool steers)
+	TTextRows& table, const std::string& whose, const std::vector<TPaperRow>& rows, int decimals, bool steers)
 {
 	const auto text = [&](double value) {
 		return std::isfinite(value) ? fixedText(value, decimals) : std::string("-");
@@ -43,22 +42,53 @@ void addRows(
 	for (const auto& row : rows) {
 		std::vector<std::string> cells{whose + row.input, fixedText(row.length, 2), text(row.mean_error)};
 		if (steers) cells.insert(cells.end(), {text(row.end_error), text(row.cross_track)});
-		table.add(cells);
+		table.rows.push_back(cells);
 	}
 }
 }  // namespace
 
-std::string paperTable(int experiment, const std::vector<TPaperRow>& ours)
+std::vector<TPaperRow> paperRows(const TMetrics& metrics)
+{
+	const auto row = [&](const char* input, const std::string& name) {
+		return TPaperRow{
+			input, metric(metrics, name + ".length"), metric(metrics, name + ".ate.unaligned.mean")};
+	};
+	const auto has = [&](const std::string& what) {
+		return std::any_of(metrics.begin(), metrics.end(), [&](const TMetric& m) { return m.what == what; });
+	};
+	std::vector<TPaperRow> rows{
+		{"Ground truth", metric(metrics, "nodes.truth_length"), kNone},
+		row("Odometry", "odom"),
+		row("Posidonia (nodes)", "nodes"),
+		row("Posidonia (causal)", "slam")};
+	if (!has("control.length")) return rows;
+	rows.push_back(row("Posidonia (in control)", "control"));
+	if (has("mission.end_error.mean")) {
+		rows.back().end_error = metric(metrics, "mission.end_error.mean");
+		rows.back().cross_track = metric(metrics, "mission.cross_track.mean");
+	}
+	return rows;
+}
+
+TTextRows paperTableRows(int experiment, const std::vector<TPaperRow>& ours)
 {
 	const TPaperTable paper = published(experiment);
 	const bool steers = std::any_of(ours.begin(), ours.end(), [](const TPaperRow& r) {
 		return std::isfinite(r.end_error) || std::isfinite(r.cross_track);
 	});
-	std::vector<std::string> header{"Input", "Traj. Dist. (m)", "Trans. ME (m)"};
-	if (steers) header.insert(header.end(), {"End (m)", "Cross-track (m)"});
-	CTextTable table(header);
+	TTextRows table{paper.title, {"Input", "Traj. Dist. (m)", "Trans. ME (m)"}, {}};
+	if (steers) table.header.insert(table.header.end(), {"End (m)", "Cross-track (m)"});
 	addRows(table, "paper: ", paper.rows, 2, steers);
 	addRows(table, "ours:  ", ours, 3, steers);
-	return paper.title + '\n' + table.text();
+	return table;
+}
+
+std::string paperTable(int experiment, const std::vector<TPaperRow>& ours)
+{
+	const TTextRows cells = paperTableRows(experiment, ours);
+	CTextTable table(cells.header);
+	for (const auto& row : cells.rows)
+		table.add(row);
+	return cells.title + '\n' + table.text();
 }
 }  // namespace posidonia

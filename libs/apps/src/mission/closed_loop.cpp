@@ -22,7 +22,7 @@ void CClosedLoop::run(const TListeners& listeners)
 			sense(listeners);
 		const TControlStep step = control();
 		listeners.step(step);
-		finished = step.output.finished;
+		finished = step.output.finished || listeners.stops();
 	}
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <posidonia/apps/interrupt.h>
 #include <posidonia/apps/replay_command.h>
+#include <posidonia/apps/report_files.h>
 #include <posidonia/apps/run_folder.h>
 #include <posidonia/nav/ekf_odometry.h>
 #include <posidonia/obs/rawlog_reader.h>
@@ -33,8 +35,10 @@ class CEkfApp
 		size_t observations{0};
 		TMetrics metrics;
 		std::string folder, rawlog;
+		bool interrupted{false};  ///< The run is not, its folder is whole
 	};
 	const TResults& results() const { return m_results; }
+	int exitStatus() const { return m_results.interrupted ? CInterrupt::kStatus : 0; }
 	TExperiment params;
 
    private:
@@ -43,6 +47,7 @@ class CEkfApp
 	bool isDue(const COdometrySource& odometry) const;
 	void writePose(const COdometrySource& odometry, CRawlogWriter& writer);
 	void linkImages();
+	void writeReportFiles(const COdometrySource& odometry);
 	/** Rows "navigation....": way, duration, sigmas of the last pose. */
 	void summarize(const TPoseEstimate& last);
 	void score();
@@ -52,7 +57,7 @@ class CEkfApp
 
 	TReplayInput m_input;
 	double m_rate{10};	///< [Hz]
-	bool m_smooth{false};
+	bool m_smooth{false}, m_json{false};
 	std::vector<TSensorReading> m_readings;	 ///< For smoothing
 	std::unique_ptr<CRunFolder> m_folder;
 	bool m_has_pictures{false};	 ///< Does any observation refer to a picture file?

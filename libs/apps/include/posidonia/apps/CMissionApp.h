@@ -2,7 +2,9 @@
 
 #include <posidonia/apps/command_line.h>
 #include <posidonia/apps/experiment.h>
+#include <posidonia/apps/interrupt.h>
 #include <posidonia/apps/mission/mission_score.h>
+#include <posidonia/apps/report_files.h>
 #include <posidonia/apps/slam_outputs.h>
 
 #include <memory>
@@ -30,10 +32,14 @@ class CMissionApp
 		double seconds{0};		  ///< Of the clock
 		int missed_deadlines{0};  ///< With --realtime
 		std::string aborted;	  ///< Why the mission was not done; empty when it was
+		bool interrupted{false};  ///< The mission is not done, the run folder is whole
 	};
 	const TResults& results() const { return m_results; }
 	/** A mission that was aborted is not done: 1. */
-	int exitStatus() const { return m_results.aborted.empty() ? 0 : 1; }
+	int exitStatus() const
+	{
+		return m_results.interrupted ? CInterrupt::kStatus : m_results.aborted.empty() ? 0 : 1;
+	}
 	TExperiment params;
 
    private:
@@ -44,13 +50,14 @@ class CMissionApp
 	void writeWorldFiles(const TLoop& loop) const;
 	void score();
 	void logSummary(TLoop& loop);
+	void writeReportFiles(TLoop& loop);
 
 	TSensorSuite m_sensors;
 	TMission m_mission;
-	std::string m_config, m_mission_text;
+	std::string m_config, m_mission_text, m_title;
 	std::unique_ptr<CRunFolder> m_folder;
 	int m_verbosity{1};
-	bool m_realtime{false};
+	bool m_realtime{false}, m_json{false};
 	TResults m_results;
 };
 }  // namespace posidonia

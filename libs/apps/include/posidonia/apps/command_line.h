@@ -12,10 +12,12 @@ namespace posidonia
 class CCommandLine
 {
    public:
-	/** `output_text`: what -o names, for --help. */
+	/** `output_text`: what -o names, for --help. `takes_config`: else there is no -c, --set, --dump-config.
+	 */
 	CCommandLine(
 		const std::string& app, const std::string& description,
-		const std::string& output_text = "Folder for the results", const std::string& output_type = "DIR");
+		const std::string& output_text = "Folder for the results", const std::string& output_type = "DIR",
+		bool takes_config = true);
 
 	TCLAP::CmdLine& cmd() { return m_cmd; }
 

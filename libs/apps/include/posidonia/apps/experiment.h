@@ -8,6 +8,7 @@
 #include <posidonia/eval/loop_evaluation.h>
 #include <posidonia/graphslam/slam_parts.h>
 #include <posidonia/nav/ekf_options.h>
+#include <posidonia/nav/nav_statistics.h>
 #include <posidonia/nav/odometry_corruptor.h>
 #include <posidonia/nav/recorded_odometry.h>
 #include <posidonia/obs/sensor_suite.h>
@@ -33,6 +34,7 @@ struct TOdometryChoice
 struct TReportOptions
 {
 	int paper_experiment{0};
+	bool page{true}, pictures{true};
 
 	template <class VISITOR>
 	void visit(VISITOR& v)
@@ -40,6 +42,8 @@ struct TReportOptions
 		v.integer(
 			"paper_experiment", paper_experiment, between(0, 2),
 			"Print the paper's table of experiment 1 or 2; 0: none");
+		v.flag("page", page, "End a run with its report.html");
+		v.flag("pictures", pictures, "Keep the left picture of each node, for the report (loops/, JPEG)");
 	}
 };
 
@@ -76,6 +80,8 @@ struct TExperiment
 
 /** Pose of the navigation filter (or recording) behind a corruptor, at the present. */
 Eigen::Isometry3d uncorruptedPose(const COdometrySource& odometry);
+/** Counts by sensor of the navigation filter behind a corruptor; empty for a recording. */
+std::map<std::string, TSensorCount> navigationCounts(const COdometrySource& odometry);
 /** Statistics of the navigation filter behind a corruptor; empty for a recording. */
 std::string navigationText(const COdometrySource& odometry);
 

@@ -25,6 +25,9 @@ std::string replayLosses(const CRawlogReader& reader);
 /** "816.0 s of log in 62.1 s (13 x real time), peak memory 210 MB"; the memory is this process's so far. */
 std::string speedText(double log_seconds, double seconds);
 
+/** What a run that was interrupted says of itself. */
+std::string interruptedText();
+
 /** The truth to score by: `given` (must exist), else <name>.gt.tum beside the rawlog, else empty. */
 std::string truthFor(const std::string& rawlog, const std::string& given);
 }  // namespace posidonia

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <posidonia/apps/experiment.h>
-#include <posidonia/apps/run_folder.h>
 #include <posidonia/eval/metrics.h>
 #include <posidonia/geometry/trajectory.h>
 
@@ -54,8 +53,7 @@ TRunScores evaluateTrajectories(
 	const TScoring& scoring, const TRunTrajectories& run, const std::vector<TLoopRow>* loops,
 	const TTrajectory& truth);
 
-/** Scores a run against the truth file: metric rows of every trajectory and of the loops of `loops_csv`, and
- * writes the pictures of the paper's figure 5 (trajectories.svg, error.svg) into `folder`. Returns the rows
+/** Scores a run against the truth file: metric rows of every trajectory and of the loops of `loops_csv`,
  * and, for the paper's experiments, its table with ours. @param mission rows "mission.*" of a vehicle that
  * steered by its pose, for the table */
 struct TScore
@@ -65,5 +63,5 @@ struct TScore
 };
 TScore scoreRun(
 	const TScoring& scoring, const TRunTrajectories& run, const std::string& loops_csv,
-	const std::string& truth_file, const CRunFolder& folder, const TMetrics& mission = {});
+	const std::string& truth_file, const TMetrics& mission = {});
 }  // namespace posidonia

@@ -102,6 +102,7 @@ struct TSlamParts
 		&chain_uncertainty};				  ///< The optimiser puts itself here if it has marginals
 	std::function<void()> make_exact{[] {}};  ///< Set by an optimiser whose poses are nearly exact
 	mutable mrpt::system::CTimeLogger timer{true, "stages", true};
+	TGreyPair last_pictures;  ///< Of the newest key frame; empty before the first
 
 	/** The rig of a stereo observation's label, from the sensors.ini. Made at the first pair. */
 	struct TRig

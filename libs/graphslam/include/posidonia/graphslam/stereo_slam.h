@@ -49,7 +49,12 @@ class CStereoSlam
 	const std::vector<TCausalPose>& causal() const;
 	/** The nodes as they are now. */
 	TTrajectory nodes() const;
+	/** Covariance of each node's T_map_body over (rho, phi), from the optimum of the graph with its priors.
+	 * Without a prior of the root ([Priors] root = false) it is held fixed, and they are seen from there. */
+	std::vector<Matrix6d> nodeCovariances() const;
 	const CSlamMap& map() const;
+	/** The pictures of the newest key frame; empty before the first, and where no decider makes any. */
+	const TGreyPair& lastPictures() const;
 	const COdometrySource& odometry() const;
 	mrpt::system::CTimeLogger& timer() const;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <posidonia/eval/metrics.h>
+
 #include <limits>
 #include <string>
 #include <vector>
@@ -18,8 +20,23 @@ struct TPaperRow
 	double cross_track{std::numeric_limits<double>::quiet_NaN()};
 };
 
-/** The paper's Table 2 (experiment 1) or 3 (experiment 2) with our rows under it, for a terminal.
+/** Our rows from those of a run's metrics.json ("odom.length", "nodes.ate.unaligned.mean", ...): truth,
+ * odometry, final nodes, causal poses and, of a closed loop, the pose in control. Throws CError when the run
+ * was not scored. */
+std::vector<TPaperRow> paperRows(const TMetrics& metrics);
+
+/** The table as cells. */
+struct TTextRows
+{
+	std::string title;
+	std::vector<std::string> header;
+	std::vector<std::vector<std::string>> rows;
+};
+
+/** The paper's Table 2 (experiment 1) or 3 (experiment 2) with our rows under it.
  * The columns of steering are there when any row has them.
  * Throws CError for another experiment. */
+TTextRows paperTableRows(int experiment, const std::vector<TPaperRow>& ours);
+/** The same for a terminal. */
 std::string paperTable(int experiment, const std::vector<TPaperRow>& ours);
 }  // namespace posidonia

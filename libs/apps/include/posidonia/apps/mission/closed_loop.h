@@ -41,8 +41,9 @@ class CClosedLoop
 	{
 		std::function<void(const TControlStep&)> step;	///< After each step of the autopilot
 		std::function<void()> pair;						///< After each stereo pair that SLAM was given
+		std::function<bool()> stops;					///< Asked after each step: is that enough?
 	};
-	/** Until the mission is finished. */
+	/** Until the mission is finished, or it is told to stop. */
 	void run(const TListeners& listeners);
 
 	/** CPU stages of the loop itself: rendering, dynamics and sensors, control. */
