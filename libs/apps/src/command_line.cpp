@@ -43,7 +43,9 @@ CCommandLine::CCommandLine(
 	  m_verbosity("v", "verbosity", "0 quiet, 1 summary (default), 2 details", false, 1, "0|1|2", m_cmd),
 	  m_dump("", "dump-config", "Print the configuration as used, with every key's meaning, and stop")
 {
-	if (takes_config) m_cmd.add(m_config).add(m_set).add(m_dump);
+	if (takes_config)
+		for (TCLAP::Arg* arg : std::initializer_list<TCLAP::Arg*>{&m_config, &m_set, &m_dump})
+			m_cmd.add(arg);
 	m_cmd.setExceptionHandling(false);
 }
 

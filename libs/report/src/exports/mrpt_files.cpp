@@ -121,7 +121,7 @@ mrpt::opengl::CTexturedPlane::Ptr floorPlane(const TFloorMosaic& mosaic)
 	plane->setName("floor");
 	plane->setLocation(0, 0, mosaic.depth);
 	plane->assignImage(mrpt::img::CImage(turned, mrpt::img::DEEP_COPY));
-	plane->enableLighting(false);
+	plane->CRenderizableShaderTexturedTriangles::enableLight(false);
 	return plane;
 }
 

@@ -35,12 +35,13 @@ double medianFloor(const std::vector<const TNodeRow*>& nodes, const Isometry3d& 
 /** What the mean of all pictures has more or less than its own mean: the light's fall. */
 cv::Mat1f lightOf(const std::vector<cv::Mat1b>& pictures)
 {
-	cv::Mat1f sum = cv::Mat1f::zeros(pictures.front().size());
+	cv::Mat1f sum(pictures.front().size(), 0.0F);
 	for (const cv::Mat1b& picture : pictures)
 		cv::accumulate(picture, sum);
 	cv::GaussianBlur(sum, sum, {}, sum.cols / 20.0);
 	sum /= std::max(1e-6, cv::mean(sum)[0]);
-	return cv::max(sum, 0.1);
+	cv::max(sum, 0.1, sum);
+	return sum;
 }
 
 /** Lays pictures on the plane. */
@@ -48,7 +49,7 @@ class CPainter
 {
    public:
 	CPainter(TFloorMosaic& mosaic, double resolution)
-		: m_mosaic(mosaic), m_resolution(resolution), m_weight(cv::Mat1f::zeros(mosaic.image.size()))
+		: m_mosaic(mosaic), m_resolution(resolution), m_weight(mosaic.image.size(), 0.0F)
 	{
 	}
 
