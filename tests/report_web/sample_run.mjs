@@ -53,14 +53,14 @@ export function truePath(count) {
 /** Truth with an error that grows to `worst` [m] (odometry) or stays about `noise` (SLAM). */
 export function estimate(truth, worst, noise, seed) {
 	const { normal } = random(seed), last = truth.length - 1;
-	const walk = { n: 0, e: 0 };
+	const walk = { n: 0, e: 0 }, wobble = { n: 0, e: 0, d: 0 };
 	return truth.map((pose, i) => {
-		walk.n += 0.012 * worst * normal();
-		walk.e += 0.012 * worst * normal();
+		for (const key of ['n', 'e']) walk[key] += 0.012 * worst * normal();
+		for (const key of ['n', 'e', 'd']) wobble[key] = 0.92 * wobble[key] + 0.39 * noise * normal();
 		const s = i / last;
 		return {
-			...pose, n: pose.n + worst * 0.8 * s + walk.n + noise * normal(), e: pose.e - worst * 0.55 * s + walk.e + noise * normal(),
-			d: pose.d + 0.4 * noise * normal(), yaw: pose.yaw + 0.02 * worst * s,
+			...pose, n: pose.n + worst * 0.65 * s + walk.n + wobble.n, e: pose.e - worst * 0.45 * s + walk.e + wobble.e,
+			d: pose.d + 0.4 * wobble.d, yaw: pose.yaw + 0.02 * worst * s,
 		};
 	});
 }

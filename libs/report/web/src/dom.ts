@@ -42,5 +42,5 @@ export function select(label: string, options: [value: string, text: string][], 
 
 /** What scrolls sideways on its own, so that the page does not; reachable with the keyboard. */
 export function scroller(label: string, ...children: Child[]): HTMLElement {
-	return h('div', { class: 'scroller', role: 'region', 'aria-label': label, tabindex: 0 }, ...children);
+	return h('div', { class: 'scroller', role: 'region', 'aria-label': `${label}, table`, tabindex: 0 }, ...children);
 }

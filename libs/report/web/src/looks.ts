@@ -14,7 +14,7 @@ const LOOKS: Record<string, Look> = {
 	odometry: { colour: 'odometry', width: 1.75, dash: [7, 4], opacity: 1 },
 	ekf: { colour: 'ekf', width: 1.5, dash: [2, 3], opacity: 1 },
 	nodes: { colour: 'slam', width: 1.6, dash: [], opacity: 1 },
-	slam: { colour: 'slam', width: 1.4, dash: [9, 3, 2, 3], opacity: 1 },
+	slam: { colour: 'slam-causal', width: 1.5, dash: [6, 2], opacity: 1 },
 	control: { colour: 'control', width: 1.25, dash: [12, 4], opacity: 1 },
 	limit: { colour: 'muted', width: 1, dash: [3, 3], opacity: 1 },
 	sequential: { colour: 'sequential', width: 1, dash: [], opacity: 0.8 },

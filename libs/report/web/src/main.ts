@@ -29,6 +29,11 @@ function grid(makers: (() => HTMLElement)[]): HTMLElement | null {
 	return makers.length > 0 ? h('div', { class: 'figures' }, ...makers.map((make) => make())) : null;
 }
 
+function beside(...blocks: (HTMLElement | null)[]): HTMLElement | null {
+	const there = blocks.filter((block): block is HTMLElement => block !== null);
+	return there.length > 0 ? h('div', { class: 'tables' }, ...there) : null;
+}
+
 /** A section, or nothing where there is nothing to show. */
 function maybe(id: string, title: string, ...children: (Node | null)[]): Section | null {
 	return children.some((child) => child !== null) ? section(id, title, ...children) : null;
@@ -47,16 +52,16 @@ function laterSections(report: Report, tracks: Track[], replay: () => Replay | n
 	const nodes = pick(tracks, 'nodes'), timings = timingTables(report);
 	const toNode = nodes ? (node: number) => seek(nodes.t[Math.min(node, nodes.size - 1)]) : null;
 	const made = [
-		maybe('trajectories', 'Trajectories and error', grid([...topViews(report, tracks), ...errorPlots(report)])),
+		maybe('trajectories', 'Trajectories', grid([...topViews(report, tracks), ...errorPlots(report)])),
 		maybe('consistency', 'Consistency', grid(consistencyPlots(report))),
 		maybe('plots', 'Further plots', grid(givenPlots(report))),
-		maybe('results', 'Results', paperTable(report), metricSection(report)),
+		maybe('results', 'Results', beside(paperTable(report), metricSection(report))),
 		report.loops.from.length > 0 ? section('loops', 'Loop candidates', loopSection(report, toNode)) : null,
 		maybe('refused', 'Refused candidates', refusedTable(report)),
-		maybe('timings', 'Timings', timings.length > 0 ? h('div', { class: 'tables' }, ...timings) : null),
+		maybe('timings', 'Timings', beside(...timings)),
 		maybe('sensors', 'Sensors', sensorTable(report)),
 		maybe('events', 'Events', eventTable(report, seek)),
-		section('texts', 'Configuration and versions', ...texts(report)),
+		section('texts', 'Configuration', ...texts(report)),
 	];
 	return made.filter((one): one is Section => one !== null);
 }

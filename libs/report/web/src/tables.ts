@@ -10,7 +10,7 @@ type Cell = string | Node;
 export function table(caption: string, header: string[], rows: Cell[][], words = 1): HTMLElement {
 	const kind = (i: number) => (i < words ? 'words' : '');
 	return scroller(caption, h('table', { class: 'rows' }, h('caption', {}, caption),
-		h('thead', {}, h('tr', {}, ...header.map((text, i) => h('th', { scope: 'col', class: kind(i) }, text)))),
+		h('thead', {}, h('tr', {}, ...header.map((text, i) => h(text ? 'th' : 'td', { scope: text ? 'col' : null, class: kind(i) }, text)))),
 		h('tbody', {}, ...rows.map((cells) => h('tr', {}, ...cells.map((cell, i) => h('td', { class: kind(i) }, cell)))))));
 }
 
@@ -20,13 +20,21 @@ function bar(text: string, part: number): Node {
 	return h('span', { class: 'bar' }, h('span', { class: 'track', 'aria-hidden': 'true' }, h('span', { style: `width: ${length}` })), h('span', {}, text));
 }
 
-/** The header may be the paper's, with or without one for the first column. */
+/** Columns from the left that hold no numbers. */
+function leadingWords(rows: string[][]): number {
+	const isWords = (i: number) => rows.some((row) => /\p{L}{2}/u.test(row[i] ?? ''));
+	let count = 1;
+	while (count < (rows[0]?.length ?? 0) && isWords(count)) ++count;
+	return count;
+}
+
+/** The paper's rows and ours, which are bold. */
 export function paperTable(report: Report): HTMLElement | null {
 	const paper = report.paper_table;
 	if (!paper) return null;
-	const made = table(paper.title, paper.header, paper.rows);
-	made.querySelectorAll('tbody tr').forEach((row, i) => { if (/^ours/i.test(paper.rows[i][0] ?? '')) row.classList.add('ours'); });
-	return h('div', {}, made, paper.note ? h('p', { class: 'note' }, paper.note) : null);
+	const made = table(paper.title, paper.header, paper.rows, leadingWords(paper.rows));
+	made.querySelectorAll('tbody tr').forEach((row, i) => { if (/^(ours|posidonia)/i.test(paper.rows[i][0] ?? '')) row.classList.add('ours'); });
+	return h('div', { class: 'paper' }, made, paper.note ? h('p', { class: 'note' }, paper.note) : null);
 }
 
 function metricGroups(report: Report): Map<string, Report['metrics']> {
@@ -56,7 +64,7 @@ export function metricSection(report: Report): HTMLElement | null {
 			groups.forEach((group, i) => filterGroup(group, wanted, i === 0));
 		},
 	});
-	return h('div', {}, h('div', { class: 'filters' }, h('label', { class: 'field' }, h('span', {}, 'Find'), search)), ...groups);
+	return h('div', { class: 'metric-groups' }, h('div', { class: 'filters' }, h('label', { class: 'field' }, h('span', {}, 'Find'), search)), ...groups);
 }
 
 function filterGroup(group: HTMLDetailsElement, wanted: string, openOtherwise: boolean): void {

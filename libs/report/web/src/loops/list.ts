@@ -3,7 +3,7 @@
 import { h, select } from '../dom';
 import type { Report } from '../schema';
 import { Pair } from './pair';
-import { distinct, matchCount } from './rows';
+import { distinct, isAccepted, matchCount } from './rows';
 import { LoopTable, statusText } from './table';
 
 interface Filter { kind: string; status: string; text: string }
@@ -39,7 +39,7 @@ export function loopSection(report: Report, replay: ((node: number) => void) | n
 	states.element.id = 'loop-status';
 	const text = h('input', { type: 'search', placeholder: 'node number or words', oninput: () => { filter.text = text.value; refilter(); } });
 	refilter();
-	const first = every.find((row) => loops.kind[row] !== 'sequential' && matchCount(loops, row) > 0) ?? every[0];
+	const first = every.find((row) => loops.kind[row] !== 'sequential' && isAccepted(loops, row) && matchCount(loops, row) > 0) ?? every[0];
 	open(first);
 	return h('div', { class: 'loops' },
 		h('div', { class: 'filters' }, kinds.field, states.field, h('label', { class: 'field' }, h('span', {}, 'Find'), text)),

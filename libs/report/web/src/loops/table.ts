@@ -83,6 +83,16 @@ export class LoopTable {
 		const at = this.rows.indexOf(row);
 		if (at >= 0) this.page = Math.floor(at / PAGE);
 		this.draw();
+		this.uncover(this.body.querySelector('[aria-current]'));
+	}
+
+	/** Scrolls inside the table only. */
+	private uncover(line: HTMLElement | null): void {
+		const holder = this.body.closest('.scroller');
+		if (!line || !holder) return;
+		const top = line.offsetTop - 2 * line.offsetHeight, bottom = line.offsetTop + 2 * line.offsetHeight;
+		if (holder.scrollTop > top) holder.scrollTop = top;
+		else if (holder.scrollTop < bottom - holder.clientHeight) holder.scrollTop = bottom - holder.clientHeight;
 	}
 
 	private draw(): void {

@@ -4,7 +4,7 @@ import uPlot from 'uplot';
 import { short } from '../format';
 import type { Look } from '../looks';
 import { faded, onTheme } from '../theme';
-import { axis } from './axes';
+import { axes, PADDING } from './axes';
 import { Figure, onWidth, type Entry } from './figure';
 
 export interface Curve { label: string; look: Look; x: Float64Array; y: Float64Array }
@@ -53,11 +53,11 @@ function seriesOf(curve: Curve, on: boolean): uPlot.Series {
 
 function options(spec: Curves, entries: Entry[], figure: Figure): uPlot.Options {
 	return {
-		width: 300, height: 260, padding: [10, 10, 0, 0],
+		width: 300, height: 260, padding: PADDING,
 		legend: { show: false },
 		cursor: { y: false, points: { size: 7 }, drag: { x: true, y: false } },
 		scales: { x: { time: false } },
-		axes: [axis(spec.x, 28), axis(spec.y, 48)],
+		axes: axes(spec.x, spec.y),
 		series: [{}, ...spec.curves.map((curve, i) => seriesOf(curve, entries[i].on))],
 		bands: spec.between ? [{ series: [spec.between[0] + 1, spec.between[1] + 1], fill: () => faded('slam', 0.13) }] : [],
 		hooks: {

@@ -13,7 +13,7 @@ export class Figure {
 	/** `toggled` is called when an entry was switched, `reset` for the button. */
 	constructor(title: string, entries: Entry[], toggled: (index: number) => void, reset: () => void, note?: string) {
 		const legend = h('ul', { class: 'legend' }, ...entries.map((entry, i) => h('li', {}, this.key(entry, i, toggled))));
-		const resetButton = button('Reset zoom', reset, { class: 'quiet reset', 'aria-label': `Reset the zoom of: ${title}` });
+		const resetButton = button('Reset zoom', reset, { class: 'quiet reset', 'aria-label': `Reset zoom: ${title}` });
 		this.element = h('figure', { class: 'figure' },
 			h('figcaption', {}, h('h3', {}, title), resetButton), legend, this.canvas, note ? h('p', { class: 'note' }, note) : null);
 		this.canvas.setAttribute('role', 'img');

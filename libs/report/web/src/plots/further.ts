@@ -57,8 +57,9 @@ function rises(values: Float64Array): boolean {
 /** Against time as curves, against each other in the plane. */
 function given(plot: Plot): HTMLElement {
 	const x = floats(plot.x.values);
-	const curves = plot.series.map((series, i) => {
-		const look = lookOf(series.role, i);
+	let plain = 0;
+	const curves = plot.series.map((series) => {
+		const look = lookOf(series.role, series.role ? 0 : plain++);
 		return { label: series.label, look: series.dash ? { ...look, dash: series.dash } : look, x, y: floats(series.values) };
 	});
 	const common = { title: plot.title, x: plot.x.label, y: plot.y_label, note: plot.note };

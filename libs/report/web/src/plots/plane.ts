@@ -4,7 +4,7 @@ import uPlot from 'uplot';
 import { fixed, short } from '../format';
 import type { Look } from '../looks';
 import { faded, onTheme } from '../theme';
-import { axis } from './axes';
+import { areaOf, axes, PADDING, type Size } from './axes';
 import { Figure, onWidth, type Entry } from './figure';
 
 /** A line through points, or separate segments of two points each. */
@@ -51,8 +51,12 @@ function drawStart(plot: uPlot, [x, y]: [number, number]): void {
 	ctx.lineWidth = 1.75 * ratio;
 	ctx.strokeStyle = ctx.fillStyle = faded('ink', 1);
 	ctx.stroke();
+	ctx.textAlign = 'left';
 	ctx.font = `${12 * ratio}px system-ui, sans-serif`;
-	ctx.fillText('start', px + 8 * ratio, py - 6 * ratio);
+	ctx.lineWidth = 4 * ratio;
+	ctx.strokeStyle = faded('page', 0.85);
+	ctx.strokeText('start', px + 8 * ratio, py - 7 * ratio);
+	ctx.fillText('start', px + 8 * ratio, py - 7 * ratio);
 }
 
 function drawAll(plot: uPlot, spec: Plane, entries: Entry[]): void {
@@ -80,22 +84,15 @@ function boundsOf(shapes: Shape[]): View {
 }
 
 /** Widened by a margin, and in the shorter direction until a metre is as long in both. */
-function fitted(view: View, plot: uPlot, equal: boolean, margin: number): View {
+function fitted(view: View, { width, height }: Size, equal: boolean, margin: number): View {
 	let dx = Math.max(1e-9, view.x1 - view.x0) * margin, dy = Math.max(1e-9, view.y1 - view.y0) * margin;
 	if (equal) {
-		const unit = Math.max(dx / plot.bbox.width, dy / plot.bbox.height);
-		dx = unit * plot.bbox.width;
-		dy = unit * plot.bbox.height;
+		const unit = Math.max(dx / width, dy / height);
+		dx = unit * width;
+		dy = unit * height;
 	}
 	const x = (view.x0 + view.x1) / 2, y = (view.y0 + view.y1) / 2;
 	return { x0: x - dx / 2, x1: x + dx / 2, y0: y - dy / 2, y1: y + dy / 2 };
-}
-
-function show(plot: uPlot, view: View): void {
-	plot.batch(() => {
-		plot.setScale('x', { min: view.x0, max: view.x1 });
-		plot.setScale('y', { min: view.y0, max: view.y1 });
-	});
 }
 
 /** The rectangle that was dragged over. */
@@ -111,7 +108,12 @@ export function planePlot(spec: Plane): HTMLElement {
 	const entries: Entry[] = spec.shapes.map(({ label, look }) => ({ label, look, on: true }));
 	const bounds = boundsOf(spec.shapes);
 	let plot: uPlot | null = null, view: View | null = null;
-	const refit = () => { if (plot) show(plot, fitted(view ?? bounds, plot, spec.equal, view ? 1 : 1.08)); };
+	let seen = bounds;
+	const refit = () => {
+		if (!plot) return;
+		seen = fitted(view ?? bounds, areaOf(plot), spec.equal, view ? 1 : 1.08);
+		plot.setData([[seen.x0, seen.x1], [null, null]]);
+	};
 	const reset = () => { view = null; refit(); };
 	const figure = new Figure(spec.title, entries, () => plot?.redraw(false), reset, spec.note);
 	const position = figure.canvas.appendChild(document.createElement('span'));
@@ -129,19 +131,19 @@ export function planePlot(spec: Plane): HTMLElement {
 		position.textContent = inside ? `${text(of.posToVal(top, 'y'))}, ${text(of.posToVal(left, 'x'))}` : '';
 	};
 	const options = (width: number, height: number): uPlot.Options => ({
-		width, height, padding: [10, 10, 0, 0], legend: { show: false },
+		width, height, padding: PADDING, legend: { show: false },
 		cursor: {
 			points: { show: false }, drag: { x: true, y: true, setScale: false },
 			bind: { dblclick: () => () => { reset(); return null; } },
 		},
-		scales: { x: { time: false, auto: false, range: [0, 1] }, y: { auto: false, range: [0, 1] } },
-		axes: [axis(spec.x, 28), axis(spec.y, 48)], series: [{}, { show: true, points: { show: false } }],
+		scales: { x: { time: false }, y: { range: () => [seen.y0, seen.y1] } },
+		axes: axes(spec.x, spec.y), series: [{}, { show: true, points: { show: false } }],
 		hooks: { draw: [(of) => drawAll(of, spec, entries)], setSelect: [zoom], setCursor: [follow] },
 	});
 	onWidth(figure.canvas, (width) => {
 		const height = Math.round(Math.min(460, (spec.equal ? 0.78 : 0.5) * width + 40));
 		if (plot) plot.setSize({ width, height });
-		else plot = new uPlot(options(width, height), [[0, 1], [null, null]], figure.canvas);
+		else plot = new uPlot(options(width, height), [[seen.x0, seen.x1], [null, null]], figure.canvas);
 		refit();
 	});
 	onTheme(() => plot?.redraw(false));

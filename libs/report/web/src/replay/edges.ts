@@ -1,12 +1,13 @@
 // Loop edges between the nodes, each appearing at the time of its later node: sorted by it, so that a time is a
 // length of the buffer.
 
-import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineDashedMaterial, LineSegments } from 'three';
+import { BufferAttribute, BufferGeometry, LineSegments, type LineBasicMaterial } from 'three';
 import { lastUpTo, Track } from '../columns';
 import { isAccepted, isTurnedDown } from '../loops/rows';
 import { loopLook, lookOf, type Look } from '../looks';
 import type { Loops } from '../schema';
 import { colour } from '../theme';
+import { ORDER, thin, thinDashed } from './materials';
 
 export interface EdgeLayer { key: string; label: string; look: Look; rows: number[] }
 
@@ -27,10 +28,15 @@ export function edgeLayers(loops: Loops): EdgeLayer[] {
 	return [...layers.values()].sort((a, b) => order.indexOf(a.key) - order.indexOf(b.key));
 }
 
+/** Many lines over each other hide what is under them: the more, the fainter. */
+function crowded(count: number): number {
+	return Math.max(0.12, Math.min(0.9, 20 / Math.sqrt(count + 1)));
+}
+
 export class Edges {
 	readonly lines: LineSegments;
 	private readonly times: Float64Array;
-	private readonly material: LineBasicMaterial | LineDashedMaterial;
+	private readonly material: LineBasicMaterial;
 
 	constructor(readonly layer: EdgeLayer, loops: Loops, nodes: Track, dashLength: number) {
 		const rows = layer.rows.filter((row) => loops.to[row] < nodes.size && loops.from[row] < nodes.size);
@@ -44,14 +50,14 @@ export class Edges {
 		this.material = this.makeMaterial(dashLength);
 		this.lines = new LineSegments(geometry, this.material);
 		this.lines.frustumCulled = false;
+		this.lines.renderOrder = ORDER.edges;
 		if (layer.look.dash.length > 0) this.lines.computeLineDistances();
 		this.recolour();
 	}
 
-	private makeMaterial(dashLength: number): LineBasicMaterial | LineDashedMaterial {
-		const { dash, opacity } = this.layer.look, common = { transparent: true, opacity: 0.75 * opacity, depthWrite: false };
-		if (dash.length === 0) return new LineBasicMaterial(common);
-		return new LineDashedMaterial({ ...common, dashSize: dash[0] * dashLength / 5, gapSize: dash[1] * dashLength / 5 });
+	private makeMaterial(dashLength: number): LineBasicMaterial {
+		const { dash, opacity } = this.layer.look, unit = dashLength / 5, seen = opacity * crowded(this.layer.rows.length);
+		return dash.length > 0 ? thinDashed(seen, dash[0] * unit, dash[1] * unit) : thin(seen);
 	}
 
 	recolour(): void {

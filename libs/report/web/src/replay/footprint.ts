@@ -1,9 +1,10 @@
 // What the left camera sees of the floor: its four corner rays cut at the node's altitude.
 
-import { BufferAttribute, BufferGeometry, DoubleSide, Euler, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Euler, Group, LineSegments, Matrix4, Mesh, Vector3 } from 'three';
 import type { Pose } from '../columns';
 import type { Camera } from '../schema';
 import { colour } from '../theme';
+import { face, ORDER, thin } from './materials';
 
 const RAYS = [0, 1, 0, 2, 0, 3, 0, 4, 1, 2, 2, 3, 3, 4, 4, 1];
 const FACE = [1, 2, 3, 1, 3, 4];
@@ -12,8 +13,8 @@ export class Footprint {
 	readonly group = new Group();
 	/** Camera, then the corners clockwise. */
 	private readonly points = new BufferAttribute(new Float32Array(15), 3);
-	private readonly fill = new MeshBasicMaterial({ transparent: true, opacity: 0.18, side: DoubleSide, depthWrite: false });
-	private readonly edge = new LineBasicMaterial();
+	private readonly fill = face(0.25);
+	private readonly edge = thin();
 	private readonly bodyFromCamera: Matrix4;
 	private known = false;
 
@@ -25,9 +26,10 @@ export class Footprint {
 			made.setIndex(index);
 			return made;
 		};
-		const face = new Mesh(geometry(FACE), this.fill), rays = new LineSegments(geometry(RAYS), this.edge);
-		face.frustumCulled = rays.frustumCulled = false;
-		this.group.add(face, rays);
+		const seen = new Mesh(geometry(FACE), this.fill), rays = new LineSegments(geometry(RAYS), this.edge);
+		seen.frustumCulled = rays.frustumCulled = false;
+		seen.renderOrder = rays.renderOrder = ORDER.vehicle;
+		this.group.add(seen, rays);
 		this.recolour();
 	}
 

@@ -1,9 +1,10 @@
 // The floor's picture, and a level grid with metre labels, a depth scale and a north arrow.
 
-import { BufferAttribute, BufferGeometry, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, SRGBColorSpace, TextureLoader, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Group, LineSegments, Mesh, SRGBColorSpace, TextureLoader, Vector3 } from 'three';
 import type { Floor } from '../schema';
 import { colour } from '../theme';
 import type { Labels } from './labels';
+import { face, ORDER, thin } from './materials';
 import type { Box } from './stage';
 
 /** 1, 2 or 5 times a power of ten, so that the span has about `count` steps. */
@@ -26,15 +27,16 @@ export function floorMesh(floor: Floor, box: Box, loaded: () => void): Mesh | nu
 	const texture = new TextureLoader().load(floor.image, loaded);
 	texture.colorSpace = SRGBColorSpace;
 	texture.anisotropy = 4;
-	// Drawn behind whatever lies on it.
-	return new Mesh(geometry, new MeshBasicMaterial({ map: texture, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
+	const mesh = new Mesh(geometry, face(1, texture));
+	mesh.renderOrder = ORDER.floor;
+	return mesh;
 }
 
 export class Grid {
 	readonly group = new Group();
 	readonly box: Box;
-	private readonly material = new LineBasicMaterial({ transparent: true, opacity: 0.55 });
-	private readonly arrow = new MeshBasicMaterial({ side: DoubleSide });
+	private readonly material = thin(0.55);
+	private readonly arrow = face();
 	private readonly step: number;
 
 	/** Around `seen`, widened to whole steps, level at its lowest depth. */
@@ -43,6 +45,7 @@ export class Grid {
 		const down = (x: number) => step * Math.floor(x / step), up = (x: number) => step * Math.ceil(x / step);
 		this.box = { n0: down(seen.n0), n1: up(seen.n1), e0: down(seen.e0), e1: up(seen.e1), d0: Math.min(0, seen.d0), d1: seen.d1 };
 		this.group.add(this.lines(labels), this.northArrow(labels));
+		for (const part of this.group.children) part.renderOrder = ORDER.grid;
 		this.recolour();
 	}
 

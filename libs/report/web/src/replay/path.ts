@@ -3,10 +3,11 @@
 import { Group, InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
 import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
-import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
+import type { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { lastUpTo, Track } from '../columns';
 import type { Look } from '../looks';
 import { colour } from '../theme';
+import { broad, ORDER } from './materials';
 
 function positions(track: Track): Float32Array {
 	const out = new Float32Array(3 * track.size);
@@ -35,20 +36,19 @@ export class Path {
 		whole.setPositions(positions(track));
 		this.tip = new LineGeometry();
 		this.tip.setPositions([0, 0, 0, 0, 0, 0]);
-		const dashed = track.name === 'odometry';
-		const faint = new LineMaterial({ linewidth: Math.max(1, look.width - 1), transparent: true, opacity: 0.2 * look.opacity });
-		const full = new LineMaterial({
-			linewidth: look.width + 0.4, transparent: true, opacity: look.opacity, dashed, dashSize: dashLength, gapSize: 0.6 * dashLength,
-		});
+		const gap = track.name === 'odometry' ? 0.6 * dashLength : 0;
+		const faint = broad(Math.max(1, look.width - 1), 0.2 * look.opacity, dashLength, 0);
+		const full = broad(look.width + 0.4, look.opacity, dashLength, gap);
 		this.materials = [faint, full];
 		const rest = new Line2(whole, faint);
-		if (dashed) rest.computeLineDistances();
+		rest.computeLineDistances();
 		this.done = sharing(whole);
 		const tip = new Line2(this.tip, full);
-		if (dashed) tip.computeLineDistances();
+		tip.computeLineDistances();
 		// Bounds of the part up to now are not known to the renderer.
 		for (const line of [rest, new Line2(this.done, full), tip]) {
 			line.frustumCulled = false;
+			line.renderOrder = track.name === 'truth' ? ORDER.truth : look.colour === 'slam' ? ORDER.slam : ORDER.path;
 			this.group.add(line);
 		}
 		this.recolour();

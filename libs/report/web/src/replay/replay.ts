@@ -38,7 +38,7 @@ function timelineOf(report: Report, tracks: Track[]): Timeline {
 
 function wire(parent: HTMLElement, viewport: HTMLElement, stage: Stage, report: Report, tracks: Track[]): Replay {
 	const world = new World(stage, report, tracks), timeline = timelineOf(report, tracks);
-	const views = new Views(stage, world.grid.box, Math.max(9, world.span / 3)), readout = new Readout(report, world);
+	const views = new Views(stage, world.outline, Math.max(9, world.span / 3)), readout = new Readout(report, world);
 	const controls = new Controls(timeline, views, stage, world);
 	viewport.append(world.labels.element, readout.picture);
 	parent.append(controls.bar, readout.values, controls.layers, controls.help, h('p', { class: 'hint', id: 'replay-hint' },
@@ -55,6 +55,9 @@ function wire(parent: HTMLElement, viewport: HTMLElement, stage: Stage, report: 
 	update();
 	views.show('overview');
 	stage.draw();
-	onPrint(() => stage.resize());
+	onPrint(() => {
+		stage.resize();
+		stage.draw();
+	});
 	return { seek: (time) => timeline.seek(time), element: viewport };
 }

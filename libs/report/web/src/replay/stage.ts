@@ -17,6 +17,7 @@ export class Stage {
 	/** Called before each drawing, with the size of the canvas [px]. */
 	readonly before: ((width: number, height: number) => void)[] = [];
 	private pending = false;
+	private size = '';
 
 	/** Throws where there is no WebGL. */
 	constructor(private readonly holder: HTMLElement) {
@@ -29,26 +30,30 @@ export class Stage {
 		this.camera.up.set(0, 0, 1);
 		this.orbit = new OrbitControls(this.camera, this.renderer.domElement);
 		this.orbit.addEventListener('change', () => this.redraw());
-		new ResizeObserver(() => this.resize()).observe(holder);
 		this.resize();
+		new ResizeObserver(() => { if (this.resize()) this.draw(); }).observe(holder);
 	}
 
-	resize(): void {
-		const { clientWidth: width, clientHeight: height } = this.holder;
-		if (width === 0 || height === 0) return;
-		this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+	/** Follows the size of its holder; false when there was nothing to follow. */
+	resize(): boolean {
+		const { clientWidth: width, clientHeight: height } = this.holder, ratio = Math.min(2, devicePixelRatio);
+		const key = `${width} ${height} ${ratio}`;
+		if (width === 0 || height === 0 || key === this.size) return false;
+		this.size = key;
+		this.renderer.setPixelRatio(ratio);
 		this.renderer.setSize(width, height);
 		this.camera.aspect = width / height;
 		this.camera.updateProjectionMatrix();
-		this.draw();
+		return true;
 	}
 
 	redraw(): void {
 		if (this.pending) return;
 		this.pending = true;
-		requestAnimationFrame(() => this.draw());
+		requestAnimationFrame(() => { if (this.pending) this.draw(); });
 	}
 
+	/** At once; a drawing that was asked for is then not needed. */
 	draw(): void {
 		this.pending = false;
 		const { clientWidth, clientHeight } = this.holder;
@@ -57,27 +62,33 @@ export class Stage {
 		this.renderer.render(this.scene, this.camera);
 	}
 
-	/** Looks at the middle of the box from a direction (z up), from where all of it is in the picture. */
-	look(box: Box, direction: Vector3): void {
-		const middle = new Vector3((box.n0 + box.n1) / 2, -(box.e0 + box.e1) / 2, -(box.d0 + box.d1) / 2);
-		this.orbit.target.copy(middle);
-		this.camera.position.copy(middle).add(direction);
-		this.camera.lookAt(middle);
-		this.camera.position.copy(middle).addScaledVector(direction.normalize(), this.distanceFor(box, middle));
+	/** Looks along a direction (z up, towards the camera) at points of north, east, down: all of them in the picture, in its middle. */
+	look(points: Vector3[], direction: Vector3): void {
+		const seen = points.map(({ x, y, z }) => new Vector3(x, -y, -z)), away = direction.clone().normalize();
+		const target = seen.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(seen.length);
+		this.camera.position.copy(target).add(away);
+		this.camera.lookAt(target);
+		const turn = this.camera.quaternion, half = Math.tan((this.camera.fov * Math.PI) / 360);
+		for (let round = 0; round < 4; ++round) {
+			const local = seen.map((p) => p.clone().sub(target).applyQuaternion(turn.clone().invert()));
+			target.add(this.centre(local, half).applyQuaternion(turn));
+		}
+		const local = seen.map((p) => p.clone().sub(target).applyQuaternion(turn.clone().invert()));
+		this.orbit.target.copy(target);
+		this.camera.position.copy(target).addScaledVector(away, 1.1 * this.distance(local, half));
 		this.orbit.update();
 		this.redraw();
 	}
 
-	/** Distance from which every corner of the box is inside the picture, with a margin. */
-	private distanceFor(box: Box, middle: Vector3): number {
-		const half = Math.tan((this.camera.fov * Math.PI) / 360);
-		const turn = this.camera.quaternion.clone().invert();
-		let distance = 1;
-		for (let corner = 0; corner < 8; ++corner) {
-			const p = new Vector3(corner & 1 ? box.n0 : box.n1, -(corner & 2 ? box.e0 : box.e1), -(corner & 4 ? box.d0 : box.d1));
-			p.sub(middle).applyQuaternion(turn);
-			distance = Math.max(distance, p.z + Math.max(Math.abs(p.x) / (half * this.camera.aspect), Math.abs(p.y) / half));
-		}
-		return 1.06 * distance;
+	/** Distance from which points, as the camera sees them from the target, are just inside. */
+	private distance(local: Vector3[], half: number): number {
+		const { aspect } = this.camera;
+		return Math.max(...local.map((p) => p.z + Math.max(Math.abs(p.x) / (half * aspect), Math.abs(p.y) / half)), 1);
+	}
+
+	/** How far the target is to move in the camera's plane for the picture to be centred. */
+	private centre(local: Vector3[], half: number): Vector3 {
+		const d = this.distance(local, half), middle = (values: number[]) => (Math.min(...values) + Math.max(...values)) / 2;
+		return new Vector3(middle(local.map((p) => (p.x * d) / (d - p.z))), middle(local.map((p) => (p.y * d) / (d - p.z))), 0);
 	}
 }

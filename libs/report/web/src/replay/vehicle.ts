@@ -1,15 +1,16 @@
 // The vehicle: a plain torpedo with fins, its nose along x, y to starboard, z down.
 
-import { BoxGeometry, CapsuleGeometry, Group, Mesh, MeshBasicMaterial } from 'three';
+import { BoxGeometry, CapsuleGeometry, Group, Mesh } from 'three';
 import type { Pose } from '../columns';
 import { colour } from '../theme';
+import { face, ORDER } from './materials';
 
 const LENGTH = 1.6, RADIUS = 0.12;     // [m], SPARUS II
 
 export class Vehicle {
 	readonly group = new Group();
-	private readonly hull = new MeshBasicMaterial();
-	private readonly trim = new MeshBasicMaterial();
+	private readonly hull = face();
+	private readonly trim = face();
 
 	constructor(scale: number) {
 		const hull = new Mesh(new CapsuleGeometry(RADIUS, LENGTH - 2 * RADIUS, 6, 16), this.hull);
@@ -22,6 +23,7 @@ export class Vehicle {
 		const wing = new Mesh(new BoxGeometry(0.2, 0.62, 0.03), this.trim);
 		wing.position.set(-0.62, 0, 0);
 		this.group.add(hull, nose, fin, wing);
+		for (const part of this.group.children) part.renderOrder = ORDER.vehicle;
 		this.group.scale.setScalar(scale);
 		this.recolour();
 	}

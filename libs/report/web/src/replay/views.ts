@@ -2,7 +2,7 @@
 
 import { Vector3 } from 'three';
 import type { Pose } from '../columns';
-import type { Box, Stage } from './stage';
+import type { Stage } from './stage';
 
 export type View = 'overview' | 'top' | 'side' | 'follow';
 
@@ -15,12 +15,12 @@ export class Views {
 	current: View = 'overview';
 	private readonly vehicle = new Vector3();
 
-	constructor(private readonly stage: Stage, private readonly box: Box, private readonly close: number) {}
+	constructor(private readonly stage: Stage, private readonly seen: Vector3[], private readonly close: number) {}
 
 	show(view: View): void {
 		this.current = view;
 		if (view !== 'follow') {
-			this.stage.look(this.box, new Vector3(...DIRECTIONS[view]));
+			this.stage.look(this.seen, new Vector3(...DIRECTIONS[view]));
 			return;
 		}
 		this.stage.orbit.target.copy(this.vehicle);

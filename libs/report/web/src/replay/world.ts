@@ -1,6 +1,6 @@
 // Everything that the replay draws, made from the report once and then shown at a time.
 
-import type { Object3D } from 'three';
+import { Vector3, type Object3D } from 'three';
 import { extent, floats, lastUpTo, pick, Pose, Track } from '../columns';
 import { lookOf, type Look } from '../looks';
 import type { Report } from '../schema';
@@ -96,6 +96,13 @@ export class World {
 		for (const part of [...this.paths, ...this.edges, this.grid, this.vehicle]) part.recolour();
 		this.footprint?.recolour();
 		this.stage.redraw();
+	}
+
+	/** What a view has to show: the grid, the level at which the vehicle mostly is, and the top of the depth scale. */
+	get outline(): Vector3[] {
+		const { n0, n1, e0, e1, d0, d1 } = this.grid.box, level = [...this.mover.d].sort((a, b) => a - b)[this.mover.size >> 1];
+		const corners = (d: number) => [[n0, e0], [n0, e1], [n1, e0], [n1, e1]].map(([n, e]) => new Vector3(n, e, d));
+		return [...corners(d1), ...corners(level), new Vector3(n0, e1, d0)];
 	}
 
 	nodeAt(time: number): number {
