@@ -154,3 +154,48 @@ TEST(Cli, WithoutOutputFolderRunsGoToRunsAndLatestPointsThere)
 	EXPECT_HOLDS(fs::read_symlink(latest).string(), "tiny-ekf");
 	EXPECT_TRUE(fs::exists(latest / "ekf.tum"));
 }
+
+TEST(Cli, ReportHasNoConfiguration)
+{
+	const TOutcome help = runProgram("auv-report", "--help");
+	EXPECT_EQ(help.status, 0) << help.all();
+	for (const char* part : {"RUN", "-o", "--output-dir", "-v", "--version", "Exit status", "Example"})
+		EXPECT_HOLDS(help.out, part);
+	EXPECT_EQ(help.out.find("--set"), std::string::npos) << "it would have no effect";
+	expectError("auv-report", "--set a.b=c", 2, {"auv-report --help"});
+	expectError("auv-report", "/no/such/run", 1, {"/no/such/run/run.json", "no such file"});
+}
+
+TEST(Cli, AReportIsMadeAnewFromTheFolderAlone)
+{
+	const CTempFolder folder;
+	const std::string run = folder / "run";
+	const TOutcome slam =
+		runProgram("auv-graphslam", "-c " + survey().ini + " -r " + survey().rawlog + " -o " + run);
+	ASSERT_EQ(slam.status, 0) << slam.all();
+	EXPECT_HOLDS(slam.out, "report: " + run + "/report.html");
+	const std::string first = fileBytes(run + "/report.html");
+	fs::remove(run + "/report.html");
+	const TOutcome report = runProgram("auv-report", run + " -o " + (folder / "paper"));
+	EXPECT_EQ(report.status, 0) << report.all();
+	EXPECT_HOLDS(report.out, run + "/report.html");
+	EXPECT_GT(first.size(), 500000u);
+	for (const char* name :
+		 {"trajectories.svg", "node-errors.svg", "exports/trajectory.kml", "exports/scene.3Dscene",
+		  "exports/map.simplemap", "exports/photos.csv"})
+		EXPECT_TRUE(fs::exists(folder / "paper/" + name)) << name;
+	EXPECT_HOLDS(fileBytes(run + "/report.html"), "\"title\":\"tiny\"");
+}
+
+TEST(Cli, JsonIsAllThatIsPrinted)
+{
+	const CTempFolder folder;
+	const std::string run =
+		"-c " + survey().ini + " -r " + survey().rawlog + " --json -o " + (folder / "run");
+	for (const char* app : {"auv-graphslam", "auv-ekf"}) {
+		const TOutcome o = runProgram(app, run);
+		EXPECT_EQ(o.status, 0) << o.all();
+		EXPECT_EQ(o.err, "") << app;
+		EXPECT_EQ(o.out, fileBytes(folder / "run/metrics.json")) << app;
+	}
+}

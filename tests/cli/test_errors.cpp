@@ -185,3 +185,32 @@ TEST(CliErrors, ARunFolderThatCantBeMadeIsNamed)
 		"auv-ekf", "-r " + survey().rawlog + " -o " + file + "/run", 1,
 		{file + "/run", "can't make this folder"});
 }
+
+/** Ctrl-C in the middle: what was run is scored and written, and the folder says that it is not all. */
+TEST(CliErrors, AnInterruptedRunLeavesAWholeFolder)
+{
+	const CTempFolder folder;
+	const std::string run = folder / "run",
+					  ini = std::string(POSIDONIA_SOURCE_DIR) + "/ini/paper-exp2-closed.ini";
+	// The simulator's first two minutes are some seconds of the clock; Ctrl-C comes when the log has begun.
+	const std::string command =
+		std::string("'") + POSIDONIA_BIN_DIR + "/auv-mission' -c " + ini + " -o " + run + " > " +
+		(folder / "out") + " 2>&1 & pid=$!; for i in $(seq 600); do ls " + run +
+		"/loops/000010.jpg > /dev/null 2>&1 && break; sleep 0.1; done; kill -INT $pid; wait $pid";
+	const int raw = std::system(command.c_str());
+	ASSERT_TRUE(WIFEXITED(raw));
+	EXPECT_EQ(WEXITSTATUS(raw), 130) << fileBytes(folder / "out");
+	EXPECT_HOLDS(fileBytes(run + "/run.log"), "INTERRUPTED");
+	EXPECT_HOLDS(fileBytes(run + "/run.json"), "\"interrupted\": true");
+	for (const char* name : {"mission.rawlog", "metrics.json", "nodes.tum", "graph.g2o", "report.html"})
+		EXPECT_TRUE(fs::exists(run + "/" + name)) << name;
+	for (const auto& file : fs::recursive_directory_iterator(run))
+		EXPECT_NE(file.path().extension(), ".part") << file.path() << " is half written";
+	EXPECT_EQ(
+		runProgram(
+			"auv-graphslam",
+			"-v 0 -c " + run + "/config.ini -r " + run + "/mission.rawlog -o " + (folder / "replay"))
+			.status,
+		0)
+		<< "its log replays";
+}

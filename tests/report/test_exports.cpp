@@ -68,7 +68,7 @@ TEST(Exports, PhotosSayWhereTheCameraWas)
 	EXPECT_EQ(line, "image,lat,lon,depth,roll,pitch,yaw");
 	std::getline(csv, line);
 	EXPECT_EQ(line.substr(0, 12), "loops/0.jpg,");
-	EXPECT_EQ(line.substr(line.size() - 26), ",3.500,0.000,0.000,90.000") << line;
+	EXPECT_EQ(line.substr(line.size() - 25), ",3.500,0.000,0.000,90.000") << line;
 	int rows = 1;
 	while (std::getline(csv, line))
 		rows++;
@@ -102,7 +102,7 @@ TEST(Exports, MrptReadsTheScene)
 	ASSERT_TRUE(scene.loadFromFile(folder / "scene.3Dscene"));
 	const auto root = scene.getByClass<mrpt::opengl::CSetOfObjects>();
 	ASSERT_TRUE(root);
-	EXPECT_NEAR(std::abs(root->getPoseRoll()), M_PI, 1e-6) << "depth points downwards";
+	EXPECT_NEAR(std::abs(root->getPoseRoll()), 180, 1e-4) << "depth points downwards";
 	const auto named = [&](const char* name) {
 		return std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(root->getByName(name));
 	};

@@ -102,6 +102,8 @@ void CGraphSlamApp::replay(CStereoSlam& slam, CRawlogReader& reader, CNodePictur
 
 void CGraphSlamApp::collect(const CStereoSlam& slam, const CRawlogReader& reader)
 {
+	if (slam.map().nodeCount() == 0 && m_results.interrupted)
+		throw CError(reader.path(), "interrupted before the first node was made", "let it run longer");
 	if (slam.map().nodeCount() == 0)
 		throw CError(
 			reader.path(),

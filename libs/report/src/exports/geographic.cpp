@@ -1,4 +1,5 @@
 #include <posidonia/base/error.h>
+#include <posidonia/eval/number_text.h>
 #include <posidonia/report/exports.h>
 #include <posidonia/report/svg_plot.h>
 
@@ -44,15 +45,11 @@ std::vector<TGeodetic> wayOf(const TTrajectory& poses, const TWorldOptions& datu
 
 std::string degrees(double value)
 {
-	char text[32];
-	std::snprintf(text, sizeof text, "%.9f", value);
-	return text;
+	return fixedText(value, 9);
 }
 std::string metres(double value)
 {
-	char text[32];
-	std::snprintf(text, sizeof text, "%.3f", value);
-	return text;
+	return fixedText(value, 3);
 }
 }  // namespace
 
