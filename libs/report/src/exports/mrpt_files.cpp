@@ -108,13 +108,13 @@ mrpt::opengl::CSetOfLines::Ptr loopLines(const TRunData& run)
 	return lines;
 }
 
-/** The mosaic: its columns run east (y) and its rows south (-x); MRPT's run along x and -y. */
+/** The mosaic: its columns run east (y) and its rows south (-x); MRPT has columns along x and rows along y.
+ */
 mrpt::opengl::CTexturedPlane::Ptr floorPlane(const TFloorMosaic& mosaic)
 {
 	cv::Mat turned;
-	cv::transpose(mosaic.image, turned);  // columns north to south, rows west to east
-	cv::flip(turned, turned, 1);		  // columns south to north: along x
-	cv::flip(turned, turned, 0);		  // rows east to west: along -y
+	cv::transpose(mosaic.image, turned);  // rows west to east: along y; columns north to south
+	cv::flip(turned, turned, 1);		  // ... south to north: along x
 	auto plane = mrpt::opengl::CTexturedPlane::Create(
 		static_cast<float>(mosaic.north_min), static_cast<float>(mosaic.north_max),
 		static_cast<float>(mosaic.east_min), static_cast<float>(mosaic.east_max));
