@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 
 namespace posidonia
 {
@@ -23,11 +24,82 @@ std::string versionText()
 
 namespace
 {
-/** TCLAP's --version line, ours. */
+constexpr size_t kWidth = 100, kColumn = 30;  // of a help line, and where its second column begins
+
+/** "FILE.ini" of TCLAP's "[-c <FILE.ini>]"; empty for a switch. */
+std::string valueOf(const TCLAP::Arg& arg)
+{
+	const std::string id = arg.shortID();
+	const size_t from = id.find('<'), to = id.find('>');
+	return from == std::string::npos ? "" : id.substr(from + 1, to - from - 1);
+}
+
+/** "-c, --config FILE.ini", or "RUN" for an argument without a flag. */
+std::string flagsOf(const TCLAP::Arg& arg)
+{
+	const std::string value = valueOf(arg);
+	if (arg.getFlag() == "" && arg.getName() == "") return value;
+	const bool unlabeled = arg.shortID().find('-') == std::string::npos;
+	if (unlabeled) return value;
+	std::string text = arg.getFlag().empty() ? "    " : "-" + arg.getFlag() + ", ";
+	text += "--" + arg.getName();
+	return value.empty() ? text : text + " " + value;
+}
+
+/** The text in lines that fit, all but the first indented. */
+std::string wrapped(const std::string& text, size_t indent)
+{
+	std::string out;
+	size_t column = indent;
+	std::istringstream words(text);
+	for (std::string word; words >> word;) {
+		if (column > indent && column + 1 + word.size() > kWidth) {
+			out += "\n" + std::string(indent, ' ');
+			column = indent;
+		}
+		else if (column > indent) {
+			out += ' ';
+			column++;
+		}
+		out += word;
+		column += word.size();
+	}
+	return out;
+}
+
+std::string optionLine(const TCLAP::Arg& arg)
+{
+	const std::string flags = "  " + flagsOf(arg);
+	const std::string gap = flags.size() + 2 > kColumn ? "\n" + std::string(kColumn, ' ')
+													   : std::string(kColumn - flags.size(), ' ');
+	return flags + gap + wrapped(arg.getDescription(), kColumn) + "\n";
+}
+
+/** One screen, as GNU programs have it; man pages are made of it. The message holds what the app does, then its
+ * example and exit status, a line each. */
+std::string helpText(TCLAP::CmdLineInterface& cmd)
+{
+	const std::string& message = cmd.getMessage();
+	const size_t example = message.find("Example"), status = message.find("Exit status");
+	const std::string program = std::filesystem::path(cmd.getProgramName()).filename().string();
+	std::string usage = "Usage: " + program + " [OPTION]...", options;
+	for (TCLAP::Arg* arg : cmd.getArgList()) {
+		if (arg->getName() == "ignore_rest") continue;
+		const std::string line = optionLine(*arg);
+		const bool unlabeled = arg->shortID().find('-') == std::string::npos;
+		if (unlabeled) usage += arg->isRequired() ? " " + valueOf(*arg) : " [" + valueOf(*arg) + "]";
+		options = line + options;  // TCLAP has the newest first
+	}
+	return usage + "\n" + wrapped(message.substr(0, example), 0) + "\n\nOptions:\n" + options + "\n" +
+		   message.substr(example, status - example) + message.substr(status) + "\n";
+}
+
+/** TCLAP's --help and --version, ours. */
 class CVersionOutput : public TCLAP::StdOutput
 {
    public:
 	void version(TCLAP::CmdLineInterface&) override { std::cout << versionText(); }
+	void usage(TCLAP::CmdLineInterface& cmd) override { std::cout << helpText(cmd); }
 	void failure(TCLAP::CmdLineInterface&, TCLAP::ArgException& e) override { throw e; }
 };
 }  // namespace

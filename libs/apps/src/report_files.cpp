@@ -2,6 +2,7 @@
 #include <posidonia/base/error.h>
 #include <posidonia/base/files.h>
 #include <posidonia/eval/trajectory_io.h>
+#include <posidonia/graphslam/loop_candidates.h>
 #include <posidonia/report/exports.h>
 #include <posidonia/report/run_pictures.h>
 #include <posidonia/report/run_report.h>
@@ -51,18 +52,6 @@ const std::vector<std::string>& CNodePictures::files()
 
 namespace
 {
-/** Median distance of the key frame's points along the camera's axis [m]; 0 without points. */
-double medianDepth(const TKeyFrame& frame)
-{
-	if (frame.points.empty()) return 0;
-	std::vector<double> depths;
-	for (const TStereoPoint& p : frame.points)
-		depths.push_back(p.point.z());
-	const auto middle = depths.begin() + static_cast<long>(depths.size() / 2);
-	std::nth_element(depths.begin(), middle, depths.end());
-	return *middle;
-}
-
 std::vector<TNodeRow> nodeRows(const CStereoSlam& slam, const std::vector<std::string>& pictures)
 {
 	const CSlamMap& map = slam.map();

@@ -50,7 +50,6 @@ class CDeciderRegistry : public mrpt::graphslam::apps::TUserOptionsChecker<TSlam
 		describeOptimizer("CLevMarqGSO", "MRPT's own Levenberg-Marquardt, for comparison");
 	}
 
-   private:
 	void describe(const std::string& name, const std::string& type, const std::string& description)
 	{
 		auto* p = new TRegistrationDeciderProps;  // MRPT's base class deletes it
@@ -63,6 +62,8 @@ class CDeciderRegistry : public mrpt::graphslam::apps::TUserOptionsChecker<TSlam
 		p->is_slam_3d = true;
 		regs_descriptions.push_back(p);
 	}
+
+   private:
 	void describeOptimizer(const std::string& name, const std::string& description)
 	{
 		auto* p = new TOptimizerProps;
@@ -74,9 +75,9 @@ class CDeciderRegistry : public mrpt::graphslam::apps::TUserOptionsChecker<TSlam
 	}
 };
 
-const CDeciderRegistry& registry()
+CDeciderRegistry& registry()
 {
-	static const CDeciderRegistry table;
+	static CDeciderRegistry table;
 	return table;
 }
 
@@ -132,6 +133,13 @@ std::unique_ptr<TEdgeDecider> makeEdgeDecider(const std::string& names, TSlamPar
 std::unique_ptr<TGraphOptimizer> makeOptimizer(const std::string& name, TSlamParts& parts)
 {
 	return make<TGraphOptimizer>(registry().optimizers_map, name, "optimizer", parts);
+}
+
+void addEdgeDecider(const std::string& name, const std::string& description, TEdgeDecider* (*make)())
+{
+	const bool is_new = registry().edge_regs_map.emplace(name, make).second;
+	if (!is_new) throw CError("edge decider '" + name + "'", "is there already", "give yours another name");
+	registry().describe(name, "Edge", description);
 }
 
 std::string listDeciders()
