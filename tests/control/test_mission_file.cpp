@@ -153,4 +153,7 @@ TEST(MissionCheck, TheDefaultTimeoutIsThatOfCola2)
 	step.vertical_speed = 0.5;
 	EXPECT_NEAR(defaultTimeout(step, 12, 0), 2 * std::sqrt(2.0) * 12 / 0.3 + 30, 1e-9);
 	EXPECT_NEAR(defaultTimeout(step, 0, 3), 2 * 3 / 0.3 + 30, 1e-9) << "0.3 m/s at most";
+	step.kind = EStepKind::HOLD;
+	step.duration = 300;
+	EXPECT_NEAR(defaultTimeout(step, 0, 0), 330, 1e-9) << "a long hold does not time out by itself";
 }

@@ -28,7 +28,7 @@ double defaultTimeout(const TStep& step, double distance, double climb)
 {
 	const double across = std::sqrt(2.0) * distance / step.speed;
 	const double down = climb / std::min(0.3, step.vertical_speed);
-	return 2 * std::max(across, down) + 30;
+	return 2 * std::max(across, down) + 30 + step.duration;
 }
 
 namespace

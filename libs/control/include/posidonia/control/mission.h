@@ -74,7 +74,7 @@ struct TMission
 };
 
 /** Time-out of a step over `distance` and `climb` [m]: 2 max(sqrt2 d / u, dz / min(0.3, w)) + 30 s (COLA2
- * G2). */
+ * G2), and as long as a HOLD lasts. */
 double defaultTimeout(const TStep& step, double distance, double climb);
 
 /** North east [m] in map of latitude and longitude [deg]. */
