@@ -22,7 +22,20 @@ function check(what, good, detail = '') {
 	console.log(`${good ? 'ok  ' : 'FAIL'} ${what}${detail === '' ? '' : `: ${detail}`}`);
 }
 
-const shot = (page, name, fullPage = true) => page.screenshot({ path: join(folder, `${name}.png`), fullPage });
+/** The whole page in slices: pictures of many thousands of pixels are more than software WebGL draws. */
+async function shot(page, name) {
+	const before = page.viewportSize(), height = 2000;
+	await page.setViewportSize({ width: before.width, height });
+	const total = await page.evaluate(() => document.documentElement.scrollHeight);
+	for (let i = 0; i * height < total; ++i) {
+		await page.evaluate((top) => scrollTo({ top, behavior: 'instant' }), i * height);
+		await page.waitForTimeout(250);
+		await page.screenshot({ path: join(folder, `${name}-${i + 1}.png`) });
+	}
+	await page.setViewportSize(before);
+	await page.evaluate(() => scrollTo({ top: 0, behavior: 'instant' }));
+	await page.waitForTimeout(250);
+}
 
 /** A page whose errors and requests are counted. */
 async function open(browser, options) {
@@ -183,7 +196,7 @@ async function desktop(browser) {
 	await page.setViewportSize({ width: 760, height: 1000 });
 	await page.waitForTimeout(700);
 	check('paper is light', (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)) === 'rgb(255, 255, 255)');
-	await shot(page, 'print');
+	await page.screenshot({ path: join(folder, 'print.png'), fullPage: true });
 	await page.pdf({ path: join(folder, 'print.pdf'), format: 'A4' });
 	check('no errors, no requests, desktop', faults.length === 0, faults.slice(0, 5).join('; '));
 	await close();

@@ -92,6 +92,7 @@ async function start(): Promise<void> {
 	let replay: Replay | null = null;
 	const first = replaySection(tracks), main = h('main', { id: 'main', tabindex: -1 });
 	root.append(header(report), main);
+	await painted();
 	if (first) {
 		main.append(first.element);
 		replay = startReplay(first.body, report, tracks);

@@ -19,17 +19,28 @@ export class Labels {
 		this.element.append(item.text);
 	}
 
+	/** Where the camera sees a point of a picture of this size; null outside of it. */
+	private project(at: Vector3, width: number, height: number): [x: number, y: number] | null {
+		const p = at.clone().applyMatrix4(this.stage.ned.matrixWorld).project(this.stage.camera);
+		const inside = p.z < 1 && Math.abs(p.x) < 1 && Math.abs(p.y) < 1;
+		return inside ? [(0.5 + 0.5 * p.x) * width, (0.5 - 0.5 * p.y) * height] : null;
+	}
+
 	private place(width: number, height: number): void {
-		const { camera, ned } = this.stage, p = new Vector3();
-		camera.updateMatrixWorld();
-		ned.updateMatrixWorld();
+		this.stage.camera.updateMatrixWorld();
+		this.stage.ned.updateMatrixWorld();
 		for (const { at, text } of this.items) {
-			p.copy(at).applyMatrix4(ned.matrixWorld).project(camera);
-			const inside = p.z < 1 && Math.abs(p.x) < 1 && Math.abs(p.y) < 1;
-			text.style.visibility = inside ? '' : 'hidden';
-			if (!inside) continue;
-			const x = (0.5 + 0.5 * p.x) * width, y = (0.5 - 0.5 * p.y) * height;
-			text.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+			const seen = this.project(at, width, height);
+			text.style.visibility = seen ? '' : 'hidden';
+			if (seen) text.style.transform = `translate(-50%, -50%) translate(${seen[0].toFixed(1)}px, ${seen[1].toFixed(1)}px)`;
+		}
+	}
+
+	/** For a picture of another size. */
+	each(width: number, height: number, use: (text: string, x: number, y: number) => void): void {
+		for (const { at, text } of this.items) {
+			const seen = this.project(at, width, height);
+			if (seen) use(text.textContent ?? '', ...seen);
 		}
 	}
 }

@@ -62,6 +62,19 @@ export class Stage {
 		this.renderer.render(this.scene, this.camera);
 	}
 
+	/** Draws once with another width and the same shape, for `use`. */
+	picture(width: number, use: (canvas: HTMLCanvasElement) => void): void {
+		const { clientWidth, clientHeight } = this.holder, shape = clientWidth > 0 ? clientHeight / clientWidth : 0.5;
+		this.renderer.setPixelRatio(1);
+		this.renderer.setSize(width, Math.round(shape * width), false);
+		this.renderer.setClearColor(colour('stage'));
+		this.renderer.render(this.scene, this.camera);
+		use(this.renderer.domElement);
+		this.size = '';
+		this.resize();
+		this.draw();
+	}
+
 	/** Looks along a direction (z up, towards the camera) at points of north, east, down: all of them in the picture, in its middle. */
 	look(points: Vector3[], direction: Vector3): void {
 		const seen = points.map(({ x, y, z }) => new Vector3(x, -y, -z)), away = direction.clone().normalize();
@@ -75,9 +88,14 @@ export class Stage {
 		}
 		const local = seen.map((p) => p.clone().sub(target).applyQuaternion(turn.clone().invert()));
 		this.orbit.target.copy(target);
-		this.camera.position.copy(target).addScaledVector(away, 1.1 * this.distance(local, half));
+		this.camera.position.copy(target).addScaledVector(away, this.margin() * this.distance(local, half));
 		this.orbit.update();
 		this.redraw();
+	}
+
+	/** Room for labels beside what is shown. */
+	private margin(): number {
+		return 1.03 + 90 / Math.max(200, this.holder.clientWidth);
 	}
 
 	/** Distance from which points, as the camera sees them from the target, are just inside. */
