@@ -78,7 +78,7 @@ export class Grid {
 		points.push(n0, e1, d0, n0, e1, d1);
 		for (let d = step * Math.ceil(d0 / step); d < d1 - step / 3; d += step) {
 			points.push(n0, e1, d, n0, e1 + tick, d);
-			labels.add(`${name(d)} m${d === 0 ? ' depth' : ''}`, new Vector3(n0, e1 + 4 * tick, d));
+			labels.add(`${name(d)} m${d === 0 ? ' D' : ''}`, new Vector3(n0, e1 + 4 * tick, d));
 		}
 	}
 

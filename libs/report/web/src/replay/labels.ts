@@ -4,6 +4,10 @@ import { Vector3 } from 'three';
 import { h } from '../dom';
 import type { Stage } from './stage';
 
+function covers([x0, y0]: [number, number], [x1, y1]: [number, number]): boolean {
+	return Math.abs(x1 - x0) < 22 && Math.abs(y1 - y0) < 14;
+}
+
 export class Labels {
 	readonly element = h('div', { class: 'labels', 'aria-hidden': 'true' });
 	private readonly items: { at: Vector3; text: HTMLElement }[] = [];
@@ -12,10 +16,11 @@ export class Labels {
 		stage.before.push((width, height) => this.place(width, height));
 	}
 
-	/** At north, east, down. */
+	/** At north, east, down. Where two would cover each other, the one without units gives way. */
 	add(text: string, at: Vector3, className = ''): void {
 		const item = { at, text: h('span', { class: className }, text) };
-		this.items.push(item);
+		if (/[a-z]/i.test(text)) this.items.unshift(item);
+		else this.items.push(item);
 		this.element.append(item.text);
 	}
 
@@ -29,10 +34,13 @@ export class Labels {
 	private place(width: number, height: number): void {
 		this.stage.camera.updateMatrixWorld();
 		this.stage.ned.updateMatrixWorld();
+		const shown: [x: number, y: number][] = [];
 		for (const { at, text } of this.items) {
-			const seen = this.project(at, width, height);
-			text.style.visibility = seen ? '' : 'hidden';
-			if (seen) text.style.transform = `translate(-50%, -50%) translate(${seen[0].toFixed(1)}px, ${seen[1].toFixed(1)}px)`;
+			const seen = this.project(at, width, height), free = seen !== null && !shown.some((other) => covers(other, seen));
+			text.style.visibility = free ? '' : 'hidden';
+			if (!free) continue;
+			shown.push(seen);
+			text.style.transform = `translate(-50%, -50%) translate(${seen[0].toFixed(1)}px, ${seen[1].toFixed(1)}px)`;
 		}
 	}
 

@@ -41,7 +41,7 @@ export class World {
 		this.span = Math.max(box.n1 - box.n0, box.e1 - box.e0, 1);
 		this.labels = new Labels(stage);
 		this.grid = new Grid(box, this.labels);
-		this.vehicle = new Vehicle(Math.max(1, this.span / 28));
+		this.vehicle = new Vehicle(Math.max(1, this.span / 22));
 		this.footprint = report.camera ? new Footprint(report.camera) : null;
 		this.addPaths(tracks);
 		this.addEdges(report);
