@@ -48,7 +48,8 @@ export function topViews(report: Report, tracks: Track[]): (() => HTMLElement)[]
 	if (odometry) made.push(() => topView(truth ? 'Odometry and truth' : 'Odometry', [...against, path(odometry)], truth ?? odometry));
 	if (slam) {
 		const loops = nodes ? closings(report.loops, nodes) : [];
-		made.push(() => topView(truth ? 'SLAM and truth, with loop closings' : 'SLAM, with loop closings',
+		const title = `${truth ? 'SLAM and truth' : 'SLAM'}${loops.length > 0 ? ', with loop closings' : ''}`;
+		made.push(() => topView(title,
 			[...against, ...loops, { ...path(slam), look: lookOf('nodes') }], truth ?? slam));
 	}
 	return made;
