@@ -92,6 +92,7 @@ async function start(): Promise<void> {
 	const root = document.getElementById('root')!;
 	if (typeof report === 'string') {
 		root.append(failure(report));
+		performance.mark('complete');
 		return;
 	}
 	document.title = report.title;
