@@ -13,7 +13,9 @@ function isNumber(value: number | null | undefined): value is number {
 }
 
 export function fixed(value: number | null | undefined, digits: number): string {
-	return isNumber(value) ? grouped(value.toFixed(digits)).replace('-', '\u2212') : NONE;
+	if (!isNumber(value)) return NONE;
+	const text = value.toFixed(digits);
+	return grouped(Number(text) === 0 ? text.replace('-', '') : text).replace('-', '\u2212');
 }
 
 export function whole(value: number | null | undefined): string {
@@ -26,7 +28,8 @@ export function short(value: number | null | undefined): string {
 	const size = Math.abs(value);
 	if (Number.isInteger(value) && size < 1e9) return whole(value);
 	if (size >= 1e7 || size < 1e-5) return value.toExponential(2).replace(/-/g, '\u2212');
-	return fixed(value, Math.max(0, Math.min(8, 3 - Math.floor(Math.log10(size)))));
+	const text = fixed(value, Math.max(0, Math.min(8, 3 - Math.floor(Math.log10(size)))));
+	return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
 /** 75.25 -> "1:15.2", with hours only where there are some. */

@@ -15,7 +15,7 @@ const LOOKS: Record<string, Look> = {
 	ekf: { colour: 'ekf', width: 1.5, dash: [2, 3], opacity: 1 },
 	nodes: { colour: 'slam', width: 1.6, dash: [], opacity: 1 },
 	slam: { colour: 'slam-causal', width: 1.5, dash: [6, 2], opacity: 1 },
-	control: { colour: 'control', width: 1.25, dash: [12, 4], opacity: 1 },
+	control: { colour: 'control', width: 1, dash: [], opacity: 0.6 },
 	limit: { colour: 'muted', width: 1, dash: [3, 3], opacity: 1 },
 	sequential: { colour: 'sequential', width: 1, dash: [], opacity: 0.8 },
 	roi: { colour: 'roi', width: 1, dash: [4, 3], opacity: 0.85 },

@@ -74,6 +74,13 @@ function texts(report: Report): HTMLElement[] {
 	return blocks.filter(([, text]) => text).map(([title, text, ini]) => textBlock(title, text as string, ini));
 }
 
+/** Said, and shown from above instead. */
+function withoutWebGl(report: Report, tracks: Track[]): HTMLElement[] {
+	const said = h('p', { class: 'banner', role: 'note' }, 'This browser offers no WebGL: instead of the replay in three dimensions, the run from above.');
+	const views = topViews(report, tracks);
+	return views.length > 0 ? [said, views[views.length - 1]()] : [said];
+}
+
 /** Resolves when the browser has shown what is there. */
 function painted(): Promise<void> {
 	return new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
@@ -85,6 +92,7 @@ async function start(): Promise<void> {
 	const root = document.getElementById('root')!;
 	if (typeof report === 'string') {
 		root.append(failure(report));
+		performance.mark('complete');
 		return;
 	}
 	document.title = report.title;
@@ -92,11 +100,11 @@ async function start(): Promise<void> {
 	let replay: Replay | null = null;
 	const first = replaySection(tracks), main = h('main', { id: 'main', tabindex: -1 });
 	root.append(header(report), main);
+	await painted();
 	if (first) {
 		main.append(first.element);
 		replay = startReplay(first.body, report, tracks);
-		if (!replay) first.body.append(h('p', { class: 'banner', role: 'note' },
-			'This browser offers no WebGL, so the replay in three dimensions is not shown. The view from above is under Trajectories.'));
+		if (!replay) first.body.append(...withoutWebGl(report, tracks));
 	}
 	await painted();
 	performance.mark('first-drawing');

@@ -3,6 +3,7 @@
 import { h, scroller, type Child } from './dom';
 import { clock, fixed, short, whole } from './format';
 import type { Report } from './schema';
+import { onPrint } from './theme';
 
 type Cell = string | Node;
 
@@ -64,7 +65,17 @@ export function metricSection(report: Report): HTMLElement | null {
 			groups.forEach((group, i) => filterGroup(group, wanted, i === 0));
 		},
 	});
+	openForPrint(groups);
 	return h('div', { class: 'metric-groups' }, h('div', { class: 'filters' }, h('label', { class: 'field' }, h('span', {}, 'Find'), search)), ...groups);
+}
+
+/** On paper nothing can be opened. */
+function openForPrint(groups: HTMLDetailsElement[]): void {
+	let before: boolean[] = [];
+	onPrint((printing) => {
+		if (printing) before = groups.map((group) => group.open);
+		groups.forEach((group, i) => { group.open = printing || before[i]; });
+	});
 }
 
 function filterGroup(group: HTMLDetailsElement, wanted: string, openOtherwise: boolean): void {
@@ -103,6 +114,7 @@ export function sensorTable(report: Report): HTMLElement | null {
 	};
 	const made = table('Sensors', ['Sensor', 'Not used, by reason', 'Used', 'Rate [Hz]', 'Longest gap [s]'], report.sensors.map((sensor) => [
 		sensor.name, rejected(sensor.rejected), whole(sensor.used), short(sensor.rate_hz), fixed(sensor.longest_gap_s, 2)]), 2);
+	made.classList.add('said-above');
 	return made;
 }
 
@@ -111,6 +123,6 @@ export function eventTable(report: Report, seek: ((time: number) => void) | null
 	if (report.events.length === 0) return null;
 	const time = (t: number): Child & Cell => (seek ? h('button', { type: 'button', class: 'pick', onclick: () => seek(t) }, clock(t)) : clock(t));
 	const made = table('Events', ['Time', 'Event', 'What'], report.events.map((event) => [time(event.t), event.kind, event.text]), 3);
-	made.classList.add('tall');
+	made.classList.add('tall', 'said-above');
 	return made;
 }

@@ -58,7 +58,8 @@ class TextView {
 
 /** A collapsed text; made only when opened, as there may be many lines. */
 export function textBlock(title: string, text: string, ini: boolean): HTMLElement {
-	const details = h('details', { class: 'text group' }, h('summary', {}, title, h('span', { class: 'count' }, ` ${text.split('\n').length} lines`)));
+	const lines = text.replace(/\s+$/, '').split('\n').length;
+	const details = h('details', { class: 'text group' }, h('summary', {}, title, h('span', { class: 'count' }, ` ${lines} ${lines === 1 ? 'line' : 'lines'}`)));
 	details.addEventListener('toggle', () => {
 		if (details.open && details.childElementCount === 1) details.append(...contents(title, text, ini));
 	});

@@ -68,7 +68,13 @@ export function startTheme(): void {
 /** Called with true before printing and false after it. */
 export function onPrint(listener: (printing: boolean) => void): void {
 	const media = matchMedia('print');
-	media.addEventListener('change', () => listener(media.matches));
-	addEventListener('beforeprint', () => listener(true));
-	addEventListener('afterprint', () => listener(false));
+	let last = false;
+	const tell = (now: boolean) => {
+		if (now === last) return;
+		last = now;
+		listener(now);
+	};
+	media.addEventListener('change', () => tell(media.matches));
+	addEventListener('beforeprint', () => tell(true));
+	addEventListener('afterprint', () => tell(false));
 }

@@ -39,9 +39,11 @@ export function loopSection(report: Report, replay: ((node: number) => void) | n
 	states.element.id = 'loop-status';
 	const text = h('input', { type: 'search', placeholder: 'node number or words', oninput: () => { filter.text = text.value; refilter(); } });
 	refilter();
-	const first = every.find((row) => loops.kind[row] !== 'sequential' && isAccepted(loops, row) && matchCount(loops, row) > 0) ?? every[0];
+	const first = table.rows.find((row) => loops.kind[row] !== 'sequential' && isAccepted(loops, row) && matchCount(loops, row) > 0) ?? every[0];
 	open(first);
+	const columns = h('div', { class: 'loop-columns' }, table.element, pair.element);
+	pair.onLarger = (larger) => columns.classList.toggle('larger', larger);
 	return h('div', { class: 'loops' },
 		h('div', { class: 'filters' }, kinds.field, states.field, h('label', { class: 'field' }, h('span', {}, 'Find'), text)),
-		h('div', { class: 'loop-columns' }, table.element, pair.element));
+		columns);
 }

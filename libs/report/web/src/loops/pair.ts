@@ -10,6 +10,8 @@ const GAP = 12;     // between the pictures, in their pixels
 export class Pair {
 	readonly element = h('div', { class: 'pair', id: 'loop-pair', 'aria-live': 'polite' });
 	private readonly frames = new Map<number, KeyFrame>();
+	/** Told when the pictures are wanted over the whole width, or no longer. */
+	onLarger: (larger: boolean) => void = () => {};
 	private row = -1;
 	private readonly back: HTMLButtonElement;
 	private readonly on: HTMLButtonElement;
@@ -21,8 +23,17 @@ export class Pair {
 		for (const frame of report.key_frames) this.frames.set(frame.node, frame);
 		this.back = button('\u2190 Previous', () => step(-1));
 		this.on = button('Next \u2192', () => step(1));
-		this.element.append(this.content, h('div', { class: 'pager' }, this.back, this.on));
+		this.element.append(this.content, h('div', { class: 'pager' }, this.back, this.on, this.largerButton()));
 		new ResizeObserver(() => this.fitWidth()).observe(this.element);
+	}
+
+	private largerButton(): HTMLButtonElement {
+		const made = button('Larger', () => {
+			const larger = made.getAttribute('aria-pressed') !== 'true';
+			made.setAttribute('aria-pressed', String(larger));
+			this.onLarger(larger);
+		}, { class: 'larger-button', 'aria-pressed': 'false' });
+		return made;
 	}
 
 	/** Above each other where there is no room beside. */

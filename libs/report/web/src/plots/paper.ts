@@ -48,7 +48,8 @@ export function topViews(report: Report, tracks: Track[]): (() => HTMLElement)[]
 	if (odometry) made.push(() => topView(truth ? 'Odometry and truth' : 'Odometry', [...against, path(odometry)], truth ?? odometry));
 	if (slam) {
 		const loops = nodes ? closings(report.loops, nodes) : [];
-		made.push(() => topView(truth ? 'SLAM and truth, with loop closings' : 'SLAM, with loop closings',
+		const title = `${truth ? 'SLAM and truth' : 'SLAM'}${loops.length > 0 ? ', with loop closings' : ''}`;
+		made.push(() => topView(title,
 			[...against, ...loops, { ...path(slam), look: lookOf('nodes') }], truth ?? slam));
 	}
 	return made;
@@ -70,8 +71,10 @@ function curveOf(error: ErrorCurve, index: number): Curve {
 }
 
 export function errorPlots(report: Report): (() => HTMLElement)[] {
-	const curves = report.errors.map(curveOf).filter((curve) => curve.x.length > 1);
-	const ours = report.errors.filter(({ name }) => ['slam', 'nodes', 'control'].includes(name)).map(curveOf).filter((c) => c.x.length > 1);
+	// The one at the rate of control is dense: under the others.
+	const errors = [...report.errors].sort((a, b) => Number(b.name === 'control') - Number(a.name === 'control'));
+	const drawn = (some: ErrorCurve[]) => some.map(curveOf).filter((curve) => curve.x.length > 1);
+	const curves = drawn(errors), ours = drawn(errors.filter(({ name }) => ['slam', 'nodes', 'control'].includes(name)));
 	const made: (() => HTMLElement)[] = [], x = 'Distance travelled [m]', y = '3D error [m]';
 	if (curves.length > 0) made.push(() => curvePlot({ title: '3D error', x, y, curves }));
 	if (ours.length > 0 && ours.length < curves.length) made.push(() => curvePlot({ title: '3D error, SLAM alone', x, y, curves: ours }));

@@ -95,6 +95,11 @@ function fitted(view: View, { width, height }: Size, equal: boolean, margin: num
 	return { x0: x - dx / 2, x1: x + dx / 2, y0: y - dy / 2, y1: y + dy / 2 };
 }
 
+/** As high as what is shown asks for, within reason. */
+function heightFor(width: number, ratio: number): number {
+	return Math.round(Math.min(480, Math.max(220, width * Math.min(1, ratio || 0.5) * 0.86 + 60)));
+}
+
 /** The rectangle that was dragged over. */
 function selected(plot: uPlot): View {
 	const { left, top, width, height } = plot.select;
@@ -141,7 +146,7 @@ export function planePlot(spec: Plane): HTMLElement {
 		hooks: { draw: [(of) => drawAll(of, spec, entries)], setSelect: [zoom], setCursor: [follow] },
 	});
 	onWidth(figure.canvas, (width) => {
-		const height = Math.round(Math.min(460, (spec.equal ? 0.78 : 0.5) * width + 40));
+		const height = heightFor(width, spec.equal ? (bounds.y1 - bounds.y0) / (bounds.x1 - bounds.x0) : 0.5);
 		if (plot) plot.setSize({ width, height });
 		else plot = new uPlot(options(width, height), [[seen.x0, seen.x1], [null, null]], figure.canvas);
 		refit();

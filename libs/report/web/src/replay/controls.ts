@@ -67,11 +67,10 @@ export class Controls {
 	}
 
 	private update(): void {
-		const { time, playing, start, end } = this.timeline;
+		const { time, playing, end } = this.timeline;
 		this.playButton.textContent = playing ? 'Pause' : 'Play';
 		this.slider.value = String(time);
 		this.slider.setAttribute('aria-valuetext', `${clock(time)} of ${clock(end)}`);
-		this.slider.style.setProperty('--done', `${(100 * (time - start)) / Math.max(1e-9, end - start)}%`);
 		this.label.textContent = `${clock(time)} / ${clock(end)}`;
 	}
 

@@ -30,7 +30,7 @@ export function edgeLayers(loops: Loops): EdgeLayer[] {
 
 /** Many lines over each other hide what is under them: the more, the fainter. */
 function crowded(count: number): number {
-	return Math.max(0.12, Math.min(0.9, 20 / Math.sqrt(count + 1)));
+	return Math.max(0.12, Math.min(0.9, 30 / Math.sqrt(count + 1)));
 }
 
 export class Edges {

@@ -13,7 +13,7 @@ export class Footprint {
 	readonly group = new Group();
 	/** Camera, then the corners clockwise. */
 	private readonly points = new BufferAttribute(new Float32Array(15), 3);
-	private readonly fill = face(0.25);
+	private readonly fill = face(0.35);
 	private readonly edge = thin();
 	private readonly bodyFromCamera: Matrix4;
 	private known = false;
@@ -28,13 +28,16 @@ export class Footprint {
 		};
 		const seen = new Mesh(geometry(FACE), this.fill), rays = new LineSegments(geometry(RAYS), this.edge);
 		seen.frustumCulled = rays.frustumCulled = false;
-		seen.renderOrder = rays.renderOrder = ORDER.vehicle;
+		// It lies in the floor: over it, under everything else.
+		this.fill.depthTest = false;
+		seen.renderOrder = ORDER.grid;
+		rays.renderOrder = ORDER.vehicle;
 		this.group.add(seen, rays);
 		this.recolour();
 	}
 
 	recolour(): void {
-		this.fill.color.set(colour('footprint'));
+		this.fill.color.set(colour('vehicle'));
 		this.edge.color.set(colour('footprint'));
 	}
 

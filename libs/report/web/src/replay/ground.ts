@@ -71,13 +71,14 @@ export class Grid {
 		return new LineSegments(geometry, this.material);
 	}
 
-	/** At the south-eastern corner, counted downwards. */
+	/** At the south-eastern corner, counted downwards; left out where it would be too short for its labels. */
 	private depthScale(d0: number, d1: number, points: number[], labels: Labels, name: (x: number) => string): void {
 		const { n0, e1 } = this.box, step = niceStep(d1 - d0, 3), tick = 0.12 * this.step;
+		if (d1 - d0 < 0.8 * this.step) return;
 		points.push(n0, e1, d0, n0, e1, d1);
 		for (let d = step * Math.ceil(d0 / step); d < d1 - step / 3; d += step) {
 			points.push(n0, e1, d, n0, e1 + tick, d);
-			labels.add(`${name(d)} m${d === 0 ? ' depth' : ''}`, new Vector3(n0, e1 + 4 * tick, d));
+			labels.add(`${name(d)} m${d === 0 ? ' D' : ''}`, new Vector3(n0, e1 + 4 * tick, d));
 		}
 	}
 

@@ -3,8 +3,8 @@
 import { Track } from '../columns';
 import { h } from '../dom';
 import type { Report } from '../schema';
-import { onPrint } from '../theme';
 import { Controls } from './controls';
+import { printedReplay } from './paper';
 import { Readout } from './readout';
 import { Stage } from './stage';
 import { Timeline } from './timeline';
@@ -41,6 +41,7 @@ function wire(parent: HTMLElement, viewport: HTMLElement, stage: Stage, report: 
 	const views = new Views(stage, world.outline, Math.max(9, world.span / 3)), readout = new Readout(report, world);
 	const controls = new Controls(timeline, views, stage, world);
 	viewport.append(world.labels.element, readout.picture);
+	viewport.after(printedReplay(stage, world.labels));
 	parent.append(controls.bar, readout.values, controls.layers, controls.help, h('p', { class: 'hint', id: 'replay-hint' },
 		'Drag turns, right drag or two fingers move, wheel or pinch zooms. With the picture in focus: space plays, arrow keys step, Home and End jump; ? lists all keys.'));
 	const update = () => {
@@ -55,9 +56,5 @@ function wire(parent: HTMLElement, viewport: HTMLElement, stage: Stage, report: 
 	update();
 	views.show('overview');
 	stage.draw();
-	onPrint(() => {
-		stage.resize();
-		stage.draw();
-	});
 	return { seek: (time) => timeline.seek(time), element: viewport };
 }

@@ -9,7 +9,7 @@ export interface Box { n0: number; n1: number; e0: number; e1: number; d0: numbe
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
-	readonly camera = new PerspectiveCamera(38, 1, 0.1, 1e5);
+	readonly camera = new PerspectiveCamera(38, 1, 0.1, 1e6);
 	readonly orbit: OrbitControls;
 	readonly scene = new Scene();
 	/** North, east, down below this one; the scene itself has z up: half a turn about north. */
@@ -62,10 +62,24 @@ export class Stage {
 		this.renderer.render(this.scene, this.camera);
 	}
 
+	/** Draws once with another width and the same shape, for `use`. */
+	picture(width: number, use: (canvas: HTMLCanvasElement) => void): void {
+		const { clientWidth, clientHeight } = this.holder, shape = clientWidth > 0 ? clientHeight / clientWidth : 0.5;
+		this.renderer.setPixelRatio(1);
+		this.renderer.setSize(width, Math.round(shape * width), false);
+		this.renderer.setClearColor(colour('stage'));
+		this.renderer.render(this.scene, this.camera);
+		use(this.renderer.domElement);
+		this.size = '';
+		this.resize();
+		this.draw();
+	}
+
 	/** Looks along a direction (z up, towards the camera) at points of north, east, down: all of them in the picture, in its middle. */
-	look(points: Vector3[], direction: Vector3): void {
+	look(points: Vector3[], direction: Vector3, fov: number): void {
 		const seen = points.map(({ x, y, z }) => new Vector3(x, -y, -z)), away = direction.clone().normalize();
 		const target = seen.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(seen.length);
+		this.setLens(fov);
 		this.camera.position.copy(target).add(away);
 		this.camera.lookAt(target);
 		const turn = this.camera.quaternion, half = Math.tan((this.camera.fov * Math.PI) / 360);
@@ -75,9 +89,23 @@ export class Stage {
 		}
 		const local = seen.map((p) => p.clone().sub(target).applyQuaternion(turn.clone().invert()));
 		this.orbit.target.copy(target);
-		this.camera.position.copy(target).addScaledVector(away, 1.1 * this.distance(local, half));
+		const distance = this.margin() * this.distance(local, half);
+		this.camera.position.copy(target).addScaledVector(away, distance);
+		this.setLens(fov, distance / 100);
 		this.orbit.update();
 		this.redraw();
+	}
+
+	/** Field of view [deg], and what is so near that it is not drawn. */
+	setLens(fov: number, near = 0.1): void {
+		this.camera.fov = fov;
+		this.camera.near = near;
+		this.camera.updateProjectionMatrix();
+	}
+
+	/** Room for labels beside what is shown. */
+	private margin(): number {
+		return 1.03 + 90 / Math.max(200, this.holder.clientWidth);
 	}
 
 	/** Distance from which points, as the camera sees them from the target, are just inside. */

@@ -37,11 +37,11 @@ export class World {
 		this.mover = moverOf(tracks);
 		this.nodes = pick(tracks, 'nodes');
 		this.altitude = floats(report.nodes.altitude);
-		const box = boxOf(tracks, this.altitude, report);
+		const box = boxOf(tracks, floorDepth(report, this.nodes, this.altitude));
 		this.span = Math.max(box.n1 - box.n0, box.e1 - box.e0, 1);
 		this.labels = new Labels(stage);
 		this.grid = new Grid(box, this.labels);
-		this.vehicle = new Vehicle(Math.max(1, this.span / 28));
+		this.vehicle = new Vehicle(Math.max(1, this.span / 22));
 		this.footprint = report.camera ? new Footprint(report.camera) : null;
 		this.addPaths(tracks);
 		this.addEdges(report);
@@ -100,7 +100,7 @@ export class World {
 
 	/** What a view has to show: the grid, the level at which the vehicle mostly is, and the top of the depth scale. */
 	get outline(): Vector3[] {
-		const { n0, n1, e0, e1, d0, d1 } = this.grid.box, level = [...this.mover.d].sort((a, b) => a - b)[this.mover.size >> 1];
+		const { n0, n1, e0, e1, d0, d1 } = this.grid.box, level = median(this.mover.d);
 		const corners = (d: number) => [[n0, e0], [n0, e1], [n1, e0], [n1, e1]].map(([n, e]) => new Vector3(n, e, d));
 		return [...corners(d1), ...corners(level), new Vector3(n0, e1, d0)];
 	}
@@ -135,8 +135,19 @@ export function moverOf(tracks: Track[]): Track {
 	return track;
 }
 
+function median(values: Float64Array): number {
+	return values.slice().sort()[values.length >> 1];
+}
+
+/** Of its picture, or what the nodes' depths and altitudes add up to. */
+function floorDepth(report: Report, nodes: Track | null, altitude: Float64Array): number | null {
+	if (report.floor) return report.floor.depth;
+	const sums = nodes ? nodes.d.map((d, i) => d + altitude[i]).filter((depth) => depth === depth) : new Float64Array();
+	return sums.length > 0 ? median(sums) : null;
+}
+
 /** What the trajectories and the floor under them fill. */
-function boxOf(tracks: Track[], altitude: Float64Array, report: Report): Box {
+function boxOf(tracks: Track[], floor: number | null): Box {
 	const box: Box = { n0: Infinity, n1: -Infinity, e0: Infinity, e1: -Infinity, d0: Infinity, d1: -Infinity };
 	for (const track of tracks) {
 		const [n0, n1] = extent(track.n), [e0, e1] = extent(track.e), [d0, d1] = extent(track.d);
@@ -144,7 +155,6 @@ function boxOf(tracks: Track[], altitude: Float64Array, report: Report): Box {
 		box.e0 = Math.min(box.e0, e0); box.e1 = Math.max(box.e1, e1);
 		box.d0 = Math.min(box.d0, d0); box.d1 = Math.max(box.d1, d1);
 	}
-	const pad = 1 + 0.03 * Math.max(box.n1 - box.n0, box.e1 - box.e0), over = extent(altitude)[1];
-	const floor = report.floor ? report.floor.depth : box.d1 + (Number.isFinite(over) ? over : 1);
-	return { n0: box.n0 - pad, n1: box.n1 + pad, e0: box.e0 - pad, e1: box.e1 + pad, d0: box.d0, d1: Math.max(floor, box.d1) };
+	const pad = 1 + 0.03 * Math.max(box.n1 - box.n0, box.e1 - box.e0);
+	return { n0: box.n0 - pad, n1: box.n1 + pad, e0: box.e0 - pad, e1: box.e1 + pad, d0: box.d0, d1: Math.max(floor ?? box.d1 + 1, box.d1) };
 }
