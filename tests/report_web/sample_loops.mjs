@@ -28,7 +28,8 @@ function matches(a, b, wanted, rng) {
 		const inside = (u, v) => u >= 0 && v >= 0 && u < CAMERA.width && v < CAMERA.height;
 		if (inside(pixels[0], pixels[1]) && inside(pixels[2], pixels[3])) points.push(...pixels);
 	}
-	return points.length >= 20 ? points : null;
+	const scaled = points.map((p, i) => Math.round((255 * p) / (i % 2 === 0 ? CAMERA.width : CAMERA.height)));
+	return points.length >= 20 ? Buffer.from(scaled).toString('base64') : null;
 }
 
 function candidate(pair, truth, rng) {

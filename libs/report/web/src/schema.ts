@@ -43,18 +43,18 @@ export interface Loops {
 	matches: Column; inliers: Column; rmse_px: Column;
 	residual_m: Column; residual_deg: Column;   // measurement against the final poses; null when not measured
 	chi2: Column;                           // its part of the graph's chi2; null when not accepted
-	weight: Column;                         // what the robust loss left of it, 0..1; < 0.5: turned down in the end
+	weight: Column;                         // what the robust loss left of it, 0..1; below 0.5 it is drawn apart
 	error_m: Column;                        // against the truth, where known
-	/** Inlier matches as pixels [u_from, v_from, u_to, v_to, ...], rounded, thinned to at most `max_matches`;
-	 *  null where not stored. In pixels of the FULL-size picture (camera.width x camera.height). */
-	points: (number[] | null)[];
+	/** Inlier matches, thinned, as bytes in base64, four a match: u_from, v_from, u_to, v_to, scaled to 0 ... 255
+	 *  over width and height of the picture; null where not stored. */
+	points: (string | null)[];
 }
 
 /** A node's picture, embedded once, small. */
 export interface KeyFrame {
 	node: number;
 	jpeg: string | null;        // base64 of a JPEG about 320 px wide; null: left out for size
-	file: string | null;        // relative link to the full-size pair, "loops/000123.jpg" (left and right side by side); null: not written
+	file: string | null;        // relative link to the full-size left picture, "loops/000123.jpg"; null: not written
 }
 
 export interface Camera {

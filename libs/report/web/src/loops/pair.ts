@@ -3,7 +3,7 @@
 import { button, h, svg } from '../dom';
 import { fixed, whole } from '../format';
 import type { KeyFrame, Loops, Report } from '../schema';
-import { isTurnedDown, matchCount } from './rows';
+import { isTurnedDown, matchCount, matchPoints } from './rows';
 
 const GAP = 12;     // between the pictures, in their pixels
 
@@ -56,8 +56,8 @@ export class Pair {
 		const count = matchCount(loops, row);
 		this.content.replaceChildren(
 			h('h3', {}, `Nodes ${from} and ${to}`),
-			h('p', { class: 'verdict' }, `${loops.kind[row]}: ${loops.status[row]}${isTurnedDown(loops, row) ? ', turned down in the end' : ''}`),
-			this.pictures(from, to, loops.points[row]),
+			h('p', { class: 'verdict' }, `${loops.kind[row]}: ${loops.status[row]}${isTurnedDown(loops, row) ? ', less than half of its weight left' : ''}`),
+			this.pictures(from, to),
 			h('p', { class: 'note' }, count > 0 ? `${count} inlier matches drawn${this.thinned(count)}.` : 'The matches of this pair are not stored in the report.'),
 			facts(loops, row), this.links(from, to));
 	}
@@ -67,13 +67,14 @@ export class Pair {
 		return all !== null && all > count ? ` of ${whole(all)}` : '';
 	}
 
-	private pictures(from: number, to: number, points: number[] | null): SVGElement {
+	private pictures(from: number, to: number): SVGElement {
 		const size = this.report.camera ?? { width: 640, height: 480 }, { width, height } = size;
 		const dx = this.upright ? 0 : width + GAP, dy = this.upright ? height + GAP : 0;
 		const drawing = svg('svg', {
 			class: 'matches', viewBox: `0 0 ${width + dx} ${height + dy}`, role: 'img',
 			'aria-label': `Pictures of nodes ${from} and ${to} with their matches`,
 		}, this.picture(from, 0, 0, width, height), this.picture(to, dx, dy, width, height));
+		const points = matchPoints(this.report.loops, this.row, size);
 		if (points) drawing.append(matchLines(points, dx, dy));
 		return drawing;
 	}
@@ -91,7 +92,7 @@ export class Pair {
 		const list = h('p', { class: 'links' });
 		for (const node of [from, to]) {
 			const file = this.frames.get(node)?.file;
-			if (file && !/^[a-z]+:|^\/\//i.test(file)) list.append(h('a', { href: file, target: '_blank', rel: 'noopener' }, `Full-size pair of node ${node}`), ' ');
+			if (file && !/^[a-z]+:|^\/\//i.test(file)) list.append(h('a', { href: file, target: '_blank', rel: 'noopener' }, `Full-size picture of node ${node}`), ' ');
 		}
 		const { replay } = this;
 		if (replay) list.append(button('Show in the replay', () => replay(to), { class: 'quiet' }));

@@ -14,8 +14,17 @@ export function isTurnedDown(loops: Loops, row: number): boolean {
 }
 
 export function matchCount(loops: Loops, row: number): number {
-	const points = loops.points[row];
-	return points ? Math.floor(points.length / 4) : 0;
+	return Math.floor(matchBytes(loops, row).length / 4);
+}
+
+function matchBytes(loops: Loops, row: number): string {
+	return atob(loops.points[row] ?? '');
+}
+
+/** [u_from, v_from, u_to, v_to, ...] in pixels of a picture of that size; null where none are stored. */
+export function matchPoints(loops: Loops, row: number, size: { width: number; height: number }): number[] | null {
+	if (loops.points[row] === null) return null;
+	return Array.from(matchBytes(loops, row), (c, i) => (c.charCodeAt(0) / 255) * (i % 2 === 0 ? size.width : size.height));
 }
 
 /** "sequential", "roi", ...: those that occur, in order of their first row. */

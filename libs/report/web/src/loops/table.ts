@@ -24,7 +24,7 @@ const HEADS: Head[] = [
 ];
 
 export function statusText(loops: Loops, row: number): string {
-	return isTurnedDown(loops, row) ? 'turned down' : loops.status[row];
+	return isTurnedDown(loops, row) ? 'weight below half' : loops.status[row];
 }
 
 function compare(a: number | string | null, b: number | string | null): number {

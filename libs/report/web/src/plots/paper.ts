@@ -34,7 +34,7 @@ function closings(loops: Loops, nodes: Track): Shape[] {
 		}
 	}
 	const shapes = [...byKind].map(([kind, rows]) => segments(`Loop closings: ${kind}`, rows, loops, nodes, loopLook(kind)));
-	return down.length > 0 ? [...shapes, segments('Turned down', down, loops, nodes, lookOf('turned-down'))] : shapes;
+	return down.length > 0 ? [...shapes, segments('Weight below half', down, loops, nodes, lookOf('turned-down'))] : shapes;
 }
 
 function topView(title: string, shapes: Shape[], start: Track | null): HTMLElement {

@@ -21,7 +21,7 @@ export function edgeLayers(loops: Loops): EdgeLayer[] {
 	for (let row = 0; row < loops.from.length; ++row) {
 		const kind = loops.kind[row];
 		if (!isAccepted(loops, row)) put('refused', 'Refused candidates', lookOf('refused'), row);
-		else if (isTurnedDown(loops, row)) put('turned-down', 'Turned down in the end', lookOf('turned-down'), row);
+		else if (isTurnedDown(loops, row)) put('turned-down', 'Weight below half', lookOf('turned-down'), row);
 		else put(kind, `Loops: ${kind}`, loopLook(kind), row);
 	}
 	const order = ['sequential', 'roi', 'appearance', 'turned-down', 'refused'];
