@@ -86,6 +86,8 @@ TEST(FloorMosaic, SpotsLieWhereTheVehicleWas)
 	ASSERT_TRUE(mosaic);
 	EXPECT_EQ(mosaic->pictures, 12);
 	EXPECT_NEAR(mosaic->depth, 6, 1e-9);
+	EXPECT_EQ(mosaic->seen(0, 0), 0) << "a corner beyond the pictures";
+	EXPECT_EQ(mosaic->seen(mosaic->seen.rows / 2, mosaic->seen.cols / 2), 255);
 	const double north = (mosaic->north_max - mosaic->north_min) / mosaic->image.rows,
 				 east = (mosaic->east_max - mosaic->east_min) / mosaic->image.cols;
 	const auto brightness = [&](double n, double e) {

@@ -61,8 +61,12 @@ class CPainter
 		for (int v = seen.y; v < seen.br().y; v++)
 			for (int u = seen.x; u < seen.br().x; u++)
 				paintPixel(
-					picture, camera, T_camera_map * pointOf(u, v), m_mosaic.image(v, u), m_weight(v, u));
+					picture, camera, T_camera_map * pointOf(u, v), m_mosaic.image(v, u), m_mosaic.seen(v, u),
+					m_weight(v, u));
 	}
+
+	/** Where something was laid. */
+	cv::Mat1b seen() const { return m_weight > 0; }
 
    private:
 	Vector3d pointOf(int u, int v) const
@@ -73,7 +77,8 @@ class CPainter
 	}
 
 	static void paintPixel(
-		const cv::Mat1b& picture, const TStereoCamera& camera, const Vector3d& p, uchar& pixel, float& weight)
+		const cv::Mat1b& picture, const TStereoCamera& camera, const Vector3d& p, uchar& pixel, uchar& seen,
+		float& weight)
 	{
 		if (p.z() < 0.05) return;
 		const double x = camera.fx * p.x() / p.z(), y = camera.fy * p.y() / p.z();
@@ -169,6 +174,7 @@ std::optional<TFloorMosaic> floorMosaic(const TRunData& run, const TMosaicOption
 		cv::divide(pictures[k], light, even, 1, CV_8U);
 		painter.paint(even, camera, nodes[k]->T_map_body * run.camera->T_body_camera);
 	}
+	mosaic.seen = painter.seen();
 	return mosaic;
 }
 }  // namespace posidonia

@@ -225,13 +225,26 @@ TJson keyFramesJson(
 	return out;
 }
 
+namespace
+{
+/** What no picture shows is transparent. */
+std::string webp(const TFloorMosaic& mosaic)
+{
+	cv::Mat grey_and_alpha;
+	cv::merge(std::vector<cv::Mat>{mosaic.image, mosaic.image, mosaic.image, mosaic.seen}, grey_and_alpha);
+	std::vector<unsigned char> bytes;
+	cv::imencode(".webp", grey_and_alpha, bytes, {cv::IMWRITE_WEBP_QUALITY, 70});
+	return base64(bytes);
+}
+}  // namespace
+
 TJson floorJson(const TRunData& run)
 {
 	const auto mosaic = floorMosaic(run);
 	if (!mosaic) return nullptr;
 	return {
 		{"source", "mosaic of " + std::to_string(mosaic->pictures) + " key frames"},
-		{"image", "data:image/jpeg;base64," + jpeg(mosaic->image, 72)},
+		{"image", "data:image/webp;base64," + webp(*mosaic)},
 		{"north_max", rounded(mosaic->north_max, 3)},
 		{"north_min", rounded(mosaic->north_min, 3)},
 		{"east_min", rounded(mosaic->east_min, 3)},

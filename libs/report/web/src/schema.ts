@@ -66,7 +66,7 @@ export interface Camera {
 /** Sea floor under the replay: a picture lying level. Row 0 is the northern edge, column 0 the western one. */
 export interface Floor {
 	source: string;             // "mosaic of 360 key frames" | "texture of the simulated world"
-	image: string;              // data:image/jpeg;base64,...
+	image: string;              // data: of any type the browser knows, transparent where nothing was seen
 	north_max: number; north_min: number; east_min: number; east_max: number;
 	depth: number;              // [m], of the level that it is drawn on
 }

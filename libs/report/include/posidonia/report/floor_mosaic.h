@@ -12,6 +12,7 @@ namespace posidonia
 struct TFloorMosaic
 {
 	cv::Mat1b image;
+	cv::Mat1b seen;	 ///< 255 where some picture shows the floor, else 0
 	double north_min{0}, north_max{0}, east_min{0}, east_max{0};  ///< Of its edges [m]
 	double depth{0};											  ///< Of the plane [m]
 	int pictures{0};
