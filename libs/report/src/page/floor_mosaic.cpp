@@ -61,12 +61,16 @@ class CPainter
 		for (int v = seen.y; v < seen.br().y; v++)
 			for (int u = seen.x; u < seen.br().x; u++)
 				paintPixel(
-					picture, camera, T_camera_map * pointOf(u, v), m_mosaic.image(v, u), m_mosaic.seen(v, u),
-					m_weight(v, u));
+					picture, camera, T_camera_map * pointOf(u, v), m_mosaic.image(v, u), m_weight(v, u));
 	}
 
 	/** Where something was laid. */
-	cv::Mat1b seen() const { return m_weight > 0; }
+	cv::Mat1b seen() const
+	{
+		cv::Mat1b mask;
+		cv::compare(m_weight, 0, mask, cv::CMP_GT);
+		return mask;
+	}
 
    private:
 	Vector3d pointOf(int u, int v) const
@@ -77,8 +81,7 @@ class CPainter
 	}
 
 	static void paintPixel(
-		const cv::Mat1b& picture, const TStereoCamera& camera, const Vector3d& p, uchar& pixel, uchar& seen,
-		float& weight)
+		const cv::Mat1b& picture, const TStereoCamera& camera, const Vector3d& p, uchar& pixel, float& weight)
 	{
 		if (p.z() < 0.05) return;
 		const double x = camera.fx * p.x() / p.z(), y = camera.fy * p.y() / p.z();
