@@ -67,7 +67,8 @@ void CEkfApp::run()
 	m_readings.clear();
 	if (m_smooth) ekf->keepReadings(m_readings);
 	CRawlogWriter writer(m_results.rawlog);
-	replay(*odometry, reader, writer);
+	const CInterrupt interrupt;	 // to the end: what was run is written whole
+	replay(*odometry, reader, writer, interrupt);
 	if (m_results.ekf.empty())
 		throw CError(
 			m_input.rawlog, "the odometry never became ready",
@@ -101,9 +102,9 @@ void CEkfApp::writeReportFiles(const COdometrySource& odometry)
 					m_results.interrupted, start, end - start, params.simulation.world});
 }
 
-void CEkfApp::replay(COdometrySource& odometry, CRawlogReader& reader, CRawlogWriter& writer)
+void CEkfApp::replay(
+	COdometrySource& odometry, CRawlogReader& reader, CRawlogWriter& writer, const CInterrupt& interrupt)
 {
-	const CInterrupt interrupt;
 	CProgress progress("navigation filter", m_input.verbosity == 0);
 	while (const auto observation = reader.next()) {
 		m_results.interrupted = interrupt.requested();

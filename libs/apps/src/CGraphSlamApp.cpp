@@ -58,7 +58,8 @@ void CGraphSlamApp::run()
 		std::make_unique<CStereoImageLoader>(m_input.rawlog), m_folder->file("config.ini"));
 	const TSilencedAtEnd silenced{slam.timer()};
 	CNodePictures pictures(*m_folder, params.report.pictures);
-	replay(slam, reader, pictures);
+	const CInterrupt interrupt;	 // to the end: what was run is written whole
+	replay(slam, reader, pictures, interrupt);
 	slam.makeExact();
 	collect(slam, reader);
 	writeSlamFiles(*m_folder, slam, m_results.trajectories);
@@ -82,9 +83,9 @@ void CGraphSlamApp::writeReportFiles(const CStereoSlam& slam, CNodePictures& pic
 					m_results.interrupted, start, end - start, params.simulation.world});
 }
 
-void CGraphSlamApp::replay(CStereoSlam& slam, CRawlogReader& reader, CNodePictures& pictures)
+void CGraphSlamApp::replay(
+	CStereoSlam& slam, CRawlogReader& reader, CNodePictures& pictures, const CInterrupt& interrupt)
 {
-	const CInterrupt interrupt;
 	CProgress progress("graph-SLAM", m_input.verbosity == 0);
 	while (const auto observation = reader.next()) {
 		m_results.interrupted = interrupt.requested();

@@ -132,7 +132,8 @@ void CMissionApp::run()
 	TLoop loop(*this, params, *m_folder);
 	if (loop.vehicle.scene().hasCamera())
 		loop.vehicle.scene().requireFloorUnder(wayOf(m_mission, params.simulation));
-	fly(loop);
+	const CInterrupt interrupt;	 // to the end: what was run is written whole
+	fly(loop, interrupt);
 	loop.recorder.finish();
 	m_results.rawlog = loop.recorder.rawlog();
 	loop.slam.makeExact();
@@ -159,7 +160,7 @@ std::string progressText(const TControlStep& step, size_t steps)
 }
 }  // namespace
 
-void CMissionApp::fly(TLoop& loop)
+void CMissionApp::fly(TLoop& loop, const CInterrupt& interrupt)
 {
 	const auto start = std::chrono::steady_clock::now();  // for the log alone
 	CProgress progress("mission", m_verbosity == 0);
@@ -169,7 +170,6 @@ void CMissionApp::fly(TLoop& loop)
 		rememberCausal(loop.slam, m_results.trajectories);
 		loop.pictures.add(loop.slam);
 	};
-	const CInterrupt interrupt;
 	const auto stops = [&] { return m_results.interrupted = interrupt.requested(); };
 	const auto record = [&](const TControlStep& step) {
 		m_results.steps.push_back(step);

@@ -42,7 +42,8 @@ class CEkfApp
 	TExperiment params;
 
    private:
-	void replay(COdometrySource& odometry, CRawlogReader& reader, CRawlogWriter& writer);
+	void replay(
+		COdometrySource& odometry, CRawlogReader& reader, CRawlogWriter& writer, const CInterrupt& interrupt);
 	/** Is it time for the next pose? */
 	bool isDue(const COdometrySource& odometry) const;
 	void writePose(const COdometrySource& odometry, CRawlogWriter& writer);

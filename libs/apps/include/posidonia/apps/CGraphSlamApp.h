@@ -37,7 +37,8 @@ class CGraphSlamApp
 	TExperiment params;
 
    private:
-	void replay(CStereoSlam& slam, CRawlogReader& reader, CNodePictures& pictures);
+	void replay(
+		CStereoSlam& slam, CRawlogReader& reader, CNodePictures& pictures, const CInterrupt& interrupt);
 	void writeReportFiles(const CStereoSlam& slam, CNodePictures& pictures);
 	void collect(const CStereoSlam& slam, const CRawlogReader& reader);
 	void score(const CStereoSlam& slam);

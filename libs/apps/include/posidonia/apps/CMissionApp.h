@@ -45,7 +45,7 @@ class CMissionApp
    private:
 	struct TLoop;
 	void loadMissionFile(const std::string& path);
-	void fly(TLoop& loop);
+	void fly(TLoop& loop, const CInterrupt& interrupt);
 	void writeResults(TLoop& loop);
 	void writeWorldFiles(const TLoop& loop) const;
 	void score();
