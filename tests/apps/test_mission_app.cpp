@@ -77,6 +77,16 @@ TEST(MissionApp, TwiceTheSameBytes)
 		EXPECT_EQ(fileBytes(a.folder + "/" + name), fileBytes(b.folder + "/" + name)) << name;
 }
 
+TEST(MissionApp, ARunRepeatsFromItsOwnFolder)
+{
+	const auto& first = slamMission().results();
+	const CTempFolder folder;
+	CMissionApp again;
+	runApp(again, {"-c", first.folder + "/config.ini", "-o", folder / "again"});
+	for (const char* name : {"control.csv", "graph.g2o", "config.ini", "mission.ini"})
+		EXPECT_EQ(fileBytes(first.folder + "/" + name), fileBytes(folder / "again/" + name)) << name;
+}
+
 TEST(MissionApp, TheLogHasSetPointsPosesAndEvents)
 {
 	const auto& r = slamMission().results();

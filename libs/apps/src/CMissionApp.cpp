@@ -9,10 +9,27 @@
 #include <posidonia/eval/trajectory_io.h>
 #include <posidonia/obs/geodesy.h>
 
+#include <filesystem>
 #include <iostream>
 
 namespace posidonia
 {
+namespace
+{
+/** The configuration as used, such that it flies the same from the run folder: the mission's copy lies beside
+ * it, the world's pictures have their full paths. */
+std::string repeatable(CIniFile ini, const TSimulationOptions& world)
+{
+	const auto fullPath = [](const std::string& path) { return std::filesystem::absolute(path).string(); };
+	ini.set("ClosedLoop.mission=mission.ini");
+	if (!world.floor.image.empty()) ini.set("Floor.image=" + fullPath(world.floor.image));
+	if (!world.relief.image.empty()) ini.set("Relief.image=" + fullPath(world.relief.image));
+	TSensorSuite sensors = TSensorSuite::sparus2();
+	TExperiment::load(ini, sensors);
+	return ini.dump();
+}
+}  // namespace
+
 bool CMissionApp::initialize(int argc, const char* const* argv)
 {
 	CCommandLine line(
@@ -29,15 +46,15 @@ bool CMissionApp::initialize(int argc, const char* const* argv)
 	CIniFile ini = line.ini();
 	m_sensors = TSensorSuite::sparus2();
 	params = TExperiment::load(ini, m_sensors);
-	m_config = ini.dump();
 	if (line.wantsConfigDump()) {
-		std::cout << m_config;
+		std::cout << ini.dump();
 		return false;
 	}
 	findWorldFiles(params.simulation, line);
 	if (params.closed_loop.mission.empty())
 		throw CError("[ClosedLoop] mission", "is missing", "name a mission file");
 	loadMissionFile(line.besideConfig(params.closed_loop.mission));
+	m_config = repeatable(ini, params.simulation);
 	m_json = json.getValue();
 	m_verbosity = m_json ? 0 : line.verbosity();
 	m_realtime = realtime.getValue();
@@ -48,6 +65,7 @@ bool CMissionApp::initialize(int argc, const char* const* argv)
 
 void CMissionApp::loadMissionFile(const std::string& path)
 {
+	requireFile(path, "name a mission file in [ClosedLoop] mission, absolute or from the ini's folder");
 	CIniFile file = CIniFile::fromFile(path);
 	const auto& world = params.simulation.world;
 	m_mission = loadMission(file, [&](double latitude, double longitude) {

@@ -104,7 +104,7 @@ TSensorSuite TSensorSuite::sparus2()
 
 TSensorSuite readSensors(const std::string& path)
 {
-	requireFile(path, "write one (see docs), or give --assume-defaults");
+	requireFile(path, "write one (docs/rawlog-format.md), or give --assume-defaults");
 	CIniFile ini = CIniFile::fromFile(path);
 	TSensorSuite suite;
 	for (const std::string& label : ini.sections()) {

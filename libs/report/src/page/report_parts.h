@@ -28,6 +28,8 @@ TJson eventsJson(const TRunData& run);
 /** The pairs that were tried, or as many as the page holds: those with the largest residuals and, evenly,
  * others. */
 std::vector<TLoopRow> loopsShown(const TRunData& run, const TReportLimits& limits, TJson& notes);
+/** Indices of the rows in falling order of their residuals, unmeasured ones last. */
+std::vector<size_t> byResidual(const TRunData& run, const std::vector<TLoopRow>& rows);
 /** Measured against final poses: translation [m] and angle [rad]; NaN where nothing was measured. */
 Eigen::Vector2d residualOf(const TRunData& run, const TLoopRow& row);
 }  // namespace posidonia
