@@ -214,3 +214,15 @@ TEST(CliErrors, AnInterruptedRunLeavesAWholeFolder)
 		0)
 		<< "its log replays";
 }
+
+TEST(CliErrors, AFilterThatBreaksSaysSoAtOnce)
+{
+	const CTempFolder folder;
+	const std::string source = POSIDONIA_SOURCE_DIR;
+	for (const char* sensor : {"AHRS", "IMU"})
+		expectError(
+			"auv-ekf",
+			"-v 0 -c " + source + "/ini/square.ini -r " + source + "/rawlogs/square/square.rawlog -o " +
+				(folder / "run") + " --set 'Sensor." + sensor + ".pose=0 0 0 0 0 180'",
+			1, {"navigation filter", "no number any more", "upside down"});
+}

@@ -1,3 +1,5 @@
+#include <mrpt/core/format.h>
+#include <posidonia/base/error.h>
 #include <posidonia/nav/navigator.h>
 
 namespace posidonia
@@ -252,6 +254,10 @@ TPoseEstimate CNavigator::now() const
 {
 	TPoseEstimate estimate = moved(Isometry3d::Identity(), m_nav.pose(), m_setup->T_nav_body());
 	estimate.path_length = m.path;
+	if (!estimate.T.matrix().allFinite())
+		throw CError(
+			"navigation filter", mrpt::format("its pose is no number any more (stamp %.2f)", stamp()),
+			"check axes, signs and units of the sensors: an AHRS or IMU that is upside down does this");
 	return estimate;
 }
 
