@@ -7,8 +7,8 @@
 
 using namespace posidonia;
 
-// (1) A stereo edge decider says which earlier nodes to register the newest one against. What follows, matching,
-// PnP, refinement, information, the gate and the record of every candidate, is CStereoERD's.
+// (1) A stereo edge decider says which earlier nodes to register the newest one against. What follows,
+// matching, PnP, refinement, information, the gate and the record of every candidate, is CStereoERD's.
 class CNearestERD : public CStereoERD
 {
    protected:

@@ -75,8 +75,8 @@ std::string optionLine(const TCLAP::Arg& arg)
 	return flags + gap + wrapped(arg.getDescription(), kColumn) + "\n";
 }
 
-/** One screen, as GNU programs have it; man pages are made of it. The message holds what the app does, then its
- * example and exit status, a line each. */
+/** One screen, as GNU programs have it; man pages are made of it. The message holds what the app does, then
+ * its example and exit status, a line each. */
 std::string helpText(TCLAP::CmdLineInterface& cmd)
 {
 	const std::string& message = cmd.getMessage();

@@ -22,8 +22,8 @@ std::unique_ptr<TNodeDecider> makeNodeDecider(const std::string& name, TSlamPart
 std::unique_ptr<TEdgeDecider> makeEdgeDecider(const std::string& names, TSlamParts& parts);
 std::unique_ptr<TGraphOptimizer> makeOptimizer(const std::string& name, TSlamParts& parts);
 
-/** Adds a decider of one's own, before a CStereoSlam is made: [Slam] edge_deciders and --edge-deciders know it
- * then by `name`. @param make new decider; who asks owns it. Throws CError when the name is taken. */
+/** Adds a decider of one's own, before a CStereoSlam is made: [Slam] edge_deciders and --edge-deciders know
+ * it then by `name`. @param make new decider; who asks owns it. Throws CError when the name is taken. */
 void addEdgeDecider(const std::string& name, const std::string& description, TEdgeDecider* (*make)());
 template <class DECIDER>
 void addEdgeDecider(const std::string& name, const std::string& description)
