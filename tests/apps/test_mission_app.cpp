@@ -208,6 +208,8 @@ TEST(MissionApp, ThePapersTableSaysWhereTheVehicleTrulyEnded)
 	mission.fly(app, "run");
 	const std::string log = fileBytes(app.results().folder + "/run.log");
 	EXPECT_HOLDS(log, "End (m)");
+	for (const char* stage : {"stages: ", "key_frame", "rendering", "control"})
+		EXPECT_HOLDS(log, stage);
 	EXPECT_HOLDS(log, mrpt::format("%.3f", value(app, "mission.end_error.mean")));
 }
 

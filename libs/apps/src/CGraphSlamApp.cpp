@@ -138,6 +138,7 @@ void CGraphSlamApp::logSummary(const CStereoSlam& slam, const CRawlogReader& rea
 	m_folder->log(candidateCounts(slam.map().candidates), m_input.verbosity);
 	const auto& poses = m_results.trajectories.slam;
 	m_folder->log(speedText(poses.back().stamp - poses.front().stamp, seconds), m_input.verbosity);
+	m_folder->log("stages: " + stagesText({&slam.timer()}), m_input.verbosity);
 	m_folder->log(navigationText(slam.odometry()), m_input.verbosity - 1);
 }
 }  // namespace posidonia

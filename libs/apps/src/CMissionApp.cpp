@@ -266,6 +266,7 @@ void CMissionApp::logSummary(TLoop& loop)
 	m_folder->log(m_results.counts.text(), m_verbosity);
 	m_folder->log(candidateCounts(loop.slam.map().candidates), m_verbosity);
 	m_folder->log(speedText(m_results.steps.back().t, m_results.seconds), m_verbosity);
+	m_folder->log("stages: " + stagesText({&loop.loop.timer(), &loop.slam.timer()}), m_verbosity);
 	if (m_results.interrupted) m_folder->log(interruptedText(), m_verbosity + 1);
 	if (!m_results.aborted.empty())
 		m_folder->log("mission ABORTED: " + m_results.aborted + " (events.csv says when)", m_verbosity + 1);

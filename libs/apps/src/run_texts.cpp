@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -18,6 +19,22 @@ std::string timingsCsv(mrpt::system::CTimeLogger& timer, int nodes)
 			"%s,%zu,%.4f,%.3f,%.3f,%.3f\n", stage.c_str(), s.n_calls, 1e3 * s.mean_t, 1e3 * s.max_t,
 			s.total_t, nodes ? 1e3 * s.total_t / nodes : 0.0);
 	return csv;
+}
+
+std::string stagesText(const std::vector<mrpt::system::CTimeLogger*>& timers)
+{
+	std::vector<std::pair<double, std::string>> stages;
+	for (auto* timer : timers) {
+		std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stats;
+		timer->getStats(stats);
+		for (const auto& [stage, s] : stats)
+			stages.emplace_back(s.total_t, stage);
+	}
+	std::sort(stages.rbegin(), stages.rend());
+	std::string text;
+	for (const auto& [seconds, stage] : stages)
+		text += mrpt::format("%s%s %.1f s", text.empty() ? "" : ", ", stage.c_str(), seconds);
+	return text;
 }
 
 std::string candidateCounts(const std::vector<TCandidateRow>& rows)

@@ -13,6 +13,9 @@ namespace posidonia
 /** timings.csv: stage,calls,mean_ms,max_ms,total_s,ms_per_node. */
 std::string timingsCsv(mrpt::system::CTimeLogger& timer, int nodes);
 
+/** "key_frame 20.5 s, rendering 5.9 s": what took the most time first, CPU or waiting, of several timers. */
+std::string stagesText(const std::vector<mrpt::system::CTimeLogger*>& timers);
+
 /** "312 candidates: 201 too few matches, 74 RANSAC failed, 37 accepted", by kind. */
 std::string candidateCounts(const std::vector<TCandidateRow>& rows);
 
