@@ -262,9 +262,8 @@ int main(int argc, char** argv)
 		std::printf("procedural floor, %s\n", fo.detector.c_str());
 		run(CFloorRenderer::proceduralTexture(5000, 3), 0.004, fo, ro, bench);
 	}
-	const auto reef = CFloorRenderer::reefPhotograph();
-	if (bench.reef && reef) {
+	if (bench.reef) {
 		std::printf("reef photograph, %s\n", fo.detector.c_str());
-		run(*reef, 0.0055, fo, ro, bench);
+		run(CFloorRenderer::reefPhotograph(), CFloorRenderer::kMetresPerPixel, fo, ro, bench);
 	}
 }

@@ -2,8 +2,6 @@
 
 #include <posidonia/geometry/se3.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -47,13 +45,9 @@ cv::Mat CFloorRenderer::proceduralTexture(int size, unsigned seed)
 	return sum;
 }
 
-std::optional<cv::Mat> CFloorRenderer::reefPhotograph()
+cv::Mat CFloorRenderer::reefPhotograph()
 {
-	const char* folder = std::getenv("POSIDONIA_DATA");
-	const std::string data = folder ? folder : POSIDONIA_SOURCE_DIR "/../shared/data";
-	const std::string path = data + "/posters/noaa_reef_5472x3648.jpg";
-	if (!std::filesystem::exists(path)) return {};
-	return cv::imread(path, cv::IMREAD_GRAYSCALE);
+	return cv::imread(POSIDONIA_SOURCE_DIR "/ini/textures/noaa_reef.jpg", cv::IMREAD_GRAYSCALE);
 }
 
 Eigen::Isometry3d CFloorRenderer::pose(

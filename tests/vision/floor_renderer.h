@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <random>
 #include <string>
 
@@ -20,8 +19,9 @@ class CFloorRenderer
 
 	/** Noise in `octaves` octaves, coarse ones stronger: something like sand and gravel. */
 	static cv::Mat proceduralTexture(int size, unsigned seed);
-	/** A photograph of a reef (5.5 mm a pixel), when the outside data is there. */
-	static std::optional<cv::Mat> reefPhotograph();
+	/** A photograph of a reef, kMetresPerPixel each. */
+	static cv::Mat reefPhotograph();
+	static constexpr double kMetresPerPixel = 0.0055;
 
 	struct TPair
 	{

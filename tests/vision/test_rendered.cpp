@@ -172,10 +172,9 @@ TEST(RenderedRegistration, errorsMatchTheirInformation)
 {
 	TStudy study;
 	study.add(floorOfNoise(), 0, 0, 9, 1);
-	if (const auto reef = CFloorRenderer::reefPhotograph())
-		study.add(CFloorRenderer(*reef, 0.0055, TStereoCamera()), 2, 1, 9, 2);
-	else
-		study.add(floorOfNoise(), 2, 1, 9, 2);
+	const CFloorRenderer reef(
+		CFloorRenderer::reefPhotograph(), CFloorRenderer::kMetresPerPixel, TStereoCamera());
+	study.add(reef, 2, 1, 9, 2);
 	ASSERT_GE(study.pairs, 60);
 	EXPECT_EQ(study.accepted, study.pairs);
 	EXPECT_EQ(study.wrong, 0);
