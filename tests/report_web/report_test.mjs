@@ -145,6 +145,13 @@ async function checkPlots(page) {
 	await page.locator('.figure .reset').first().click();
 	await page.waitForTimeout(150);
 	check('dragging zooms and the button resets', zoomed !== before && (await picture()) === before);
+	await page.locator('.figure .plot').first().focus();
+	for (const key of ['+', '+', 'ArrowRight']) await page.keyboard.press(key);
+	await page.waitForTimeout(150);
+	const byKeys = await picture();
+	await page.keyboard.press('Home');
+	await page.waitForTimeout(150);
+	check('keys zoom and reset a plot', byKeys !== before && (await picture()) === before);
 }
 
 async function checkLoops(page) {

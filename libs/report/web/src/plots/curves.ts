@@ -79,12 +79,19 @@ function showValues(plot: uPlot, figure: Figure, count: number): void {
 	}
 }
 
+function shiftTime(plot: uPlot, zoom: number, right: number): void {
+	const { min, max } = plot.scales.x;
+	if (min === undefined || max === undefined) return;
+	const span = max - min, middle = (min + max) / 2 + right * span;
+	plot.setScale('x', { min: middle - (zoom * span) / 2, max: middle + (zoom * span) / 2 });
+}
+
 export function curvePlot(spec: Curves): HTMLElement {
 	const entries: Entry[] = spec.curves.map(({ label, look }) => ({ label, look, on: true }));
 	let plot: uPlot | null = null;
 	const data = aligned(spec.curves);
 	const figure = new Figure(spec.title, entries, (i) => plot?.setSeries(i + 1, { show: entries[i].on }),
-		() => plot?.setData(data), spec.note);
+		() => plot?.setData(data), (zoom, right) => { if (plot) shiftTime(plot, zoom, right); }, spec.note);
 	onWidth(figure.canvas, (width) => {
 		const height = Math.round(Math.min(300, Math.max(220, 0.5 * width)));
 		if (plot) plot.setSize({ width, height });

@@ -95,6 +95,12 @@ function fitted(view: View, { width, height }: Size, equal: boolean, margin: num
 	return { x0: x - dx / 2, x1: x + dx / 2, y0: y - dy / 2, y1: y + dy / 2 };
 }
 
+function moved(view: View, zoom: number, right: number, up: number): View {
+	const dx = view.x1 - view.x0, dy = view.y1 - view.y0;
+	const x = (view.x0 + view.x1) / 2 + right * dx, y = (view.y0 + view.y1) / 2 + up * dy;
+	return { x0: x - (zoom * dx) / 2, x1: x + (zoom * dx) / 2, y0: y - (zoom * dy) / 2, y1: y + (zoom * dy) / 2 };
+}
+
 /** As high as what is shown asks for, within reason. */
 function heightFor(width: number, ratio: number): number {
 	return Math.round(Math.min(480, Math.max(220, width * Math.min(1, ratio || 0.5) * 0.86 + 60)));
@@ -120,7 +126,11 @@ export function planePlot(spec: Plane): HTMLElement {
 		plot.setData([[seen.x0, seen.x1], [null, null]]);
 	};
 	const reset = () => { view = null; refit(); };
-	const figure = new Figure(spec.title, entries, () => plot?.redraw(false), reset, spec.note);
+	const move = (zoom: number, right: number, up: number) => {
+		view = moved(seen, zoom, right, up);
+		refit();
+	};
+	const figure = new Figure(spec.title, entries, () => plot?.redraw(false), reset, move, spec.note);
 	const position = figure.canvas.appendChild(document.createElement('span'));
 	position.className = 'position';
 	const zoom = (of: uPlot) => {
