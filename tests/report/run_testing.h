@@ -56,6 +56,6 @@ inline TRunData swimEast(const std::string& folder, int nodes = 12)
 
 inline nlohmann::json jsonOf(const TRunData& run, const TReportLimits& limits = {})
 {
-	return nlohmann::json::parse(runReportJson(run, limits));
+	return nlohmann::json::parse(runReportJson(run, floorMosaic(run), limits));
 }
 }  // namespace posidonia::testing

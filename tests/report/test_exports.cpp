@@ -79,7 +79,7 @@ TEST(Exports, MrptReadsTheSimpleMap)
 {
 	const CTempFolder folder;
 	const TRunData run = swimEast(folder / "run");
-	writeExports(run, folder / "run/exports");
+	writeExports(run, folder / "run/exports", floorMosaic(run));
 	mrpt::maps::CSimpleMap map;
 	ASSERT_TRUE(map.loadFromFile(folder / "run/exports/map.simplemap"));
 	ASSERT_EQ(map.size(), run.nodes.size());
@@ -97,7 +97,7 @@ TEST(Exports, MrptReadsTheScene)
 {
 	const CTempFolder folder;
 	const TRunData run = swimEast(folder / "run");
-	writeScene(run, folder / "scene.3Dscene");
+	writeScene(run, folder / "scene.3Dscene", floorMosaic(run));
 	mrpt::opengl::COpenGLScene scene;
 	ASSERT_TRUE(scene.loadFromFile(folder / "scene.3Dscene"));
 	const auto root = scene.getByClass<mrpt::opengl::CSetOfObjects>();

@@ -1,6 +1,4 @@
 #include <posidonia/apps/CReportApp.h>
-#include <posidonia/report/exports.h>
-#include <posidonia/report/run_pictures.h>
 
 #include <iostream>
 
@@ -29,11 +27,7 @@ bool CReportApp::initialize(int argc, const char* const* argv)
 void CReportApp::run()
 {
 	m_results = {};
-	const TRunData run = readRun(m_folder);
-	writeRunPictures(run, m_output);
-	writeExports(run, m_output + "/exports");
-	m_results.page = run.file("report.html");
-	writeReport(run);
+	m_results.page = writeReport(readRun(m_folder), m_output);
 	if (m_verbosity > 0)
 		std::cout << "report: " << m_results.page << "\nexports: " << m_output << "/exports\n";
 }

@@ -34,13 +34,17 @@ std::string valueOf(const TCLAP::Arg& arg)
 	return from == std::string::npos ? "" : id.substr(from + 1, to - from - 1);
 }
 
+/** "RUN": given by its place, without a flag. */
+bool isUnlabeled(const TCLAP::Arg& arg)
+{
+	return arg.shortID().find('-') == std::string::npos;
+}
+
 /** "-c, --config FILE.ini", or "RUN" for an argument without a flag. */
 std::string flagsOf(const TCLAP::Arg& arg)
 {
 	const std::string value = valueOf(arg);
-	if (arg.getFlag() == "" && arg.getName() == "") return value;
-	const bool unlabeled = arg.shortID().find('-') == std::string::npos;
-	if (unlabeled) return value;
+	if (isUnlabeled(arg)) return value;
 	std::string text = arg.getFlag().empty() ? "    " : "-" + arg.getFlag() + ", ";
 	text += "--" + arg.getName();
 	return value.empty() ? text : text + " " + value;
@@ -86,8 +90,7 @@ std::string helpText(TCLAP::CmdLineInterface& cmd)
 	for (TCLAP::Arg* arg : cmd.getArgList()) {
 		if (arg->getName() == "ignore_rest") continue;
 		const std::string line = optionLine(*arg);
-		const bool unlabeled = arg->shortID().find('-') == std::string::npos;
-		if (unlabeled) usage += arg->isRequired() ? " " + valueOf(*arg) : " [" + valueOf(*arg) + "]";
+		if (isUnlabeled(*arg)) usage += arg->isRequired() ? " " + valueOf(*arg) : " [" + valueOf(*arg) + "]";
 		options = line + options;  // TCLAP has the newest first
 	}
 	return usage + "\n" + wrapped(message.substr(0, example), 0) + "\n\nOptions:\n" + options + "\n" +

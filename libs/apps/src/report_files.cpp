@@ -3,8 +3,6 @@
 #include <posidonia/base/files.h>
 #include <posidonia/eval/trajectory_io.h>
 #include <posidonia/graphslam/loop_candidates.h>
-#include <posidonia/report/exports.h>
-#include <posidonia/report/run_pictures.h>
 #include <posidonia/report/run_report.h>
 
 #include <algorithm>
@@ -146,11 +144,7 @@ void finishReport(CRunFolder& folder, const TReportOptions& options, int verbosi
 {
 	folder.finish();
 	if (!options.page) return;
-	const TRunData run = readRun(folder.path());
-	writeRunPictures(run, folder.path());
-	writeExports(run, folder.file("exports"));
-	writeReport(run);
-	folder.log("report: " + folder.file("report.html"), verbosity);
+	folder.log("report: " + writeReport(readRun(folder.path()), folder.path()), verbosity);
 	folder.finish();
 }
 }  // namespace posidonia

@@ -12,7 +12,6 @@
 #include <posidonia/geometry/mrpt_pose.h>
 #include <posidonia/obs/observations.h>
 #include <posidonia/report/exports.h>
-#include <posidonia/report/floor_mosaic.h>
 
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -145,14 +144,14 @@ mrpt::opengl::CGridPlaneXY::Ptr gridUnder(const Eigen::AlignedBox3d& box)
 }
 }  // namespace
 
-void writeScene(const TRunData& run, const std::string& path)
+void writeScene(const TRunData& run, const std::string& path, const std::optional<TFloorMosaic>& floor)
 {
 	auto root = mrpt::opengl::CSetOfObjects::Create();
 	root->setName("map (north east down)");
 	root->setPose(mrpt::poses::CPose3D(0, 0, 0, 0, 0, M_PI));
 	root->insert(gridUnder(boundsOf(run)));
 	root->insert(mrpt::opengl::stock_objects::CornerXYZSimple(2, 3));
-	if (const auto mosaic = floorMosaic(run)) root->insert(floorPlane(*mosaic));
+	if (floor) root->insert(floorPlane(*floor));
 	root->insert(lineOf(run.trajectory("truth"), "ground truth", TColor(0x00, 0x9e, 0x73), 4));
 	root->insert(lineOf(run.trajectory("odom"), "odometry", TColor(0xd5, 0x5e, 0x00), 2));
 	const bool slam = !run.trajectory("nodes").empty();
@@ -165,7 +164,7 @@ void writeScene(const TRunData& run, const std::string& path)
 	savedWhole(path, [&](const std::string& part) { return scene.saveToFile(part); });
 }
 
-void writeExports(const TRunData& run, const std::string& folder)
+void writeExports(const TRunData& run, const std::string& folder, const std::optional<TFloorMosaic>& floor)
 {
 	makeFolder(folder);
 	const auto write = [&](const char* name, const std::string& text) {
@@ -173,7 +172,7 @@ void writeExports(const TRunData& run, const std::string& folder)
 	};
 	write("trajectory.kml", kmlOf(run));
 	write("trajectory.geojson", geoJsonOf(run));
-	writeScene(run, folder + "/scene.3Dscene");
+	writeScene(run, folder + "/scene.3Dscene", floor);
 	if (run.nodes.empty()) return;
 	write("photos.csv", photoPositionsCsv(run));
 	writeSimpleMap(run, folder + "/map.simplemap");

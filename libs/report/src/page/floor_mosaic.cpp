@@ -4,6 +4,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "json_columns.h"
+
 namespace posidonia
 {
 using Eigen::Isometry3d;
@@ -14,13 +16,10 @@ namespace
 /** Nodes that have a picture and know how high they are, evenly thinned. */
 std::vector<const TNodeRow*> pictured(const TRunData& run, size_t most)
 {
-	std::vector<const TNodeRow*> all, thinned;
+	std::vector<const TNodeRow*> all;
 	for (const TNodeRow& node : run.nodes)
 		if (!node.picture.empty() && node.altitude > 0) all.push_back(&node);
-	const size_t step = std::max<size_t>(1, (all.size() + most - 1) / most);
-	for (size_t k = 0; k < all.size(); k += step)
-		thinned.push_back(all[k]);
-	return thinned;
+	return thinned(all, most);
 }
 
 double medianFloor(const std::vector<const TNodeRow*>& nodes, const Isometry3d& T_body_camera)

@@ -1,5 +1,7 @@
 #include <posidonia/base/error.h>
 #include <posidonia/base/files.h>
+#include <posidonia/report/exports.h>
+#include <posidonia/report/run_pictures.h>
 #include <posidonia/report/run_report.h>
 #include <posidonia/report/svg_plot.h>
 
@@ -52,9 +54,13 @@ std::string reportPage(const std::string& title, const std::string& json)
 	return page;
 }
 
-void writeReport(const TRunData& run, const TReportLimits& limits)
+std::string writeReport(const TRunData& run, const std::string& folder)
 {
-	const std::string page = reportPage(run.info.title, runReportJson(run, limits));
+	const auto floor = floorMosaic(run);
+	writeRunPictures(run, folder);
+	writeExports(run, folder + "/exports", floor);
+	const std::string page = reportPage(run.info.title, runReportJson(run, floor));
 	writeFileWhole(run.file("report.html"), [&](std::ostream& out) { out << page; });
+	return run.file("report.html");
 }
 }  // namespace posidonia

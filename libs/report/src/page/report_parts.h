@@ -16,7 +16,7 @@ TJson errorsJson(const TRunData& run, const TReportLimits& limits);
 TJson consistencyJson(const TRunData& run, const TReportLimits& limits);
 TJson plotsJson(const TRunData& run, const TReportLimits& limits);
 TJson cameraJson(const TRunData& run);
-TJson floorJson(const TRunData& run);
+TJson floorJson(const std::optional<TFloorMosaic>& floor);
 TJson loopsJson(const TRunData& run, const std::vector<TLoopRow>& shown, const TReportLimits& limits);
 TJson refusedJson(const TRunData& run);
 TJson keyFramesJson(

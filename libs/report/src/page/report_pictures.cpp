@@ -1,5 +1,3 @@
-#include <posidonia/report/floor_mosaic.h>
-
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -94,9 +92,8 @@ std::string webp(const TFloorMosaic& mosaic)
 }
 }  // namespace
 
-TJson floorJson(const TRunData& run)
+TJson floorJson(const std::optional<TFloorMosaic>& mosaic)
 {
-	const auto mosaic = floorMosaic(run);
 	if (!mosaic) return nullptr;
 	return {
 		{"source", "mosaic of " + std::to_string(mosaic->pictures) + " key frames"},

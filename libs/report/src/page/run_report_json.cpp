@@ -22,7 +22,8 @@ TJson nodesJson(const TRunData& run)
 }
 }  // namespace
 
-std::string runReportJson(const TRunData& run, const TReportLimits& limits)
+std::string runReportJson(
+	const TRunData& run, const std::optional<TFloorMosaic>& floor, const TReportLimits& limits)
 {
 	TJson notes = TJson::array();
 	const auto shown = loopsShown(run, limits, notes);
@@ -42,7 +43,7 @@ std::string runReportJson(const TRunData& run, const TReportLimits& limits)
 	page["nodes"] = nodesJson(run);
 	page["consistency"] = consistencyJson(run, limits);
 	page["camera"] = cameraJson(run);
-	page["floor"] = floorJson(run);
+	page["floor"] = floorJson(floor);
 	page["loops"] = loopsJson(run, shown, limits);
 	page["refused"] = refusedJson(run);
 	page["key_frames"] = keyFramesJson(run, shown, limits, notes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <posidonia/report/floor_mosaic.h>
 #include <posidonia/report/run_data.h>
 
 #include <string>
@@ -22,9 +23,9 @@ std::string photoPositionsCsv(const TRunData& run);
 void writeSimpleMap(const TRunData& run, const std::string& path);
 /** A COpenGLScene for MRPT's SceneViewer3D: trajectories, loops, and the floor as it was seen. It hangs under
  * one root turned by 180 degrees of roll, so that depth points downwards. Whole or not at all. */
-void writeScene(const TRunData& run, const std::string& path);
+void writeScene(const TRunData& run, const std::string& path, const std::optional<TFloorMosaic>& floor);
 
 /** trajectory.kml, trajectory.geojson, photos.csv, map.simplemap and scene.3Dscene, into `folder`, which is
  * made. Runs without nodes (auv-ekf) have trajectories alone. */
-void writeExports(const TRunData& run, const std::string& folder);
+void writeExports(const TRunData& run, const std::string& folder, const std::optional<TFloorMosaic>& floor);
 }  // namespace posidonia

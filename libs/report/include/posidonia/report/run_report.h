@@ -1,5 +1,6 @@
 #pragma once
 
+#include <posidonia/report/floor_mosaic.h>
 #include <posidonia/report/run_data.h>
 
 #include <string>
@@ -19,11 +20,13 @@ struct TReportLimits
 };
 
 /** The JSON that the page shows (web/src/schema.ts says what is in it). */
-std::string runReportJson(const TRunData& run, const TReportLimits& limits = {});
+std::string runReportJson(
+	const TRunData& run, const std::optional<TFloorMosaic>& floor, const TReportLimits& limits = {});
 
 /** The page: the template with the JSON in it; opens offline, from disk. */
 std::string reportPage(const std::string& title, const std::string& json);
 
-/** Writes report.html into the run's folder, whole. */
-void writeReport(const TRunData& run, const TReportLimits& limits = {});
+/** All that is made of a run: plots and exports/ into `folder`, report.html into the run's own, beside its
+ * pictures; each file whole. Returns the path of the page. */
+std::string writeReport(const TRunData& run, const std::string& folder);
 }  // namespace posidonia
